@@ -26,8 +26,16 @@ struct YamlNode {
   Location where;
 };
 
-YamlNode ParseYamlFile(const std::string& path);
-YamlNode ParseYamlText(std::string_view text, const std::string& name_in_messages);
+struct YamlLimits {
+  int depth = 64;           // lists and mappings inside one another
+  long nodes = 10'000'000;  // values, keys, lists and mappings
+  long bytes = 256L << 20;  // of the file
+};
+
+YamlNode ParseYamlFile(const std::string& path, const YamlLimits& limits = {});
+YamlNode ParseYamlText(std::string_view text,
+                       const std::string& name_in_messages,
+                       const YamlLimits& limits = {});
 
 // What a node is, for the "found" of a message: "the text 'abc'", "a list of 4", "nothing", ...
 std::string Describe(const YamlNode& node);

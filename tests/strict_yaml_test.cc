@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "config/strict_yaml.h"
+
+#include <gtest/gtest.h>
+
+#include "testing/decimal_comma.h"
+#include "testing/input_error_text.h"
+
+namespace hexcal {
+namespace {
+
+using Kind = YamlNode::Kind;
+using testing::InputErrorText;
+
+YamlNode Parse(std::string_view text) { return ParseYamlText(text, "f.yaml"); }
+
+std::string ParseError(std::string_view text, const YamlLimits& limits = {}) {
+  return InputErrorText([&] { ParseYamlText(text, "f.yaml", limits); });
+}
+
+const YamlNode& Value(const YamlNode& map, std::size_t index) {
+  return map.entries.at(index).second;
+}
+
+std::string Where(const YamlNode& node) { return node.where.ToString(); }
+
+TEST(StrictYaml, EveryKindOfNodeKnowsItsPlace) {
+  const YamlNode root =
+      Parse("# a comment\na: 1\nlist: [x, 'y', [1.5]]\nmap:\n  k: \"t\"\nempty:\nnil: ~\n");
+  ASSERT_EQ(root.kind, Kind::kMap);
+  ASSERT_EQ(root.entries.size(), 5u);
+  EXPECT_EQ(Where(root), "f.yaml:2:1");
+  EXPECT_EQ(root.entries[0].first.scalar, "a");
+  EXPECT_EQ(Value(root, 0).scalar, "1");
+  EXPECT_FALSE(Value(root, 0).quoted);
+  EXPECT_EQ(Where(Value(root, 0)), "f.yaml:2:4");
+  const YamlNode& list = Value(root, 1);
+  ASSERT_EQ(list.kind, Kind::kSequence);
+  ASSERT_EQ(list.items.size(), 3u);
+  EXPECT_EQ(Where(list), "f.yaml:3:7");
+  EXPECT_TRUE(list.items[1].quoted);
+  EXPECT_EQ(Where(list.items[1]), "f.yaml:3:11");
+  EXPECT_EQ(list.items[2].items[0].scalar, "1.5");
+  EXPECT_TRUE(Value(Value(root, 2), 0).quoted);
+  EXPECT_EQ(Where(Value(Value(root, 2), 0)), "f.yaml:5:6");
+  EXPECT_EQ(Value(root, 3).kind, Kind::kNull);
+  EXPECT_EQ(Where(Value(root, 3)), "f.yaml:6:1");  // at its key
+  EXPECT_EQ(Value(root, 4).kind, Kind::kNull);
+  EXPECT_EQ(Where(Value(root, 4)), "f.yaml:7:6");
+}
+
+TEST(StrictYaml, AllNodesShareOneFileName) {
+  const YamlNode root = Parse("a: [1, 2]\n");
+  EXPECT_EQ(root.where.file.get(), Value(root, 0).items[1].where.file.get());
+}
+
+TEST(StrictYaml, ColumnsCountCharacters) {
+  const YamlNode root = Parse("\xC3\xA9t\xC3\xA9: {\xC3\xBC: 1, b: [2, x]}\nb: 3\n");
+  const YamlNode& map = Value(root, 0);
+  EXPECT_EQ(Where(map), "f.yaml:1:6");
+  EXPECT_EQ(Where(Value(map, 0)), "f.yaml:1:10");
+  EXPECT_EQ(Where(Value(map, 1).items[1]), "f.yaml:1:20");
+  EXPECT_EQ(Where(Value(root, 1)), "f.yaml:2:4");
+}
+
+TEST(StrictYaml, TakesByteOrderMarkAndCrlf) {
+  const YamlNode root = Parse(
+      "\xEF\xBB\xBF"
+      "a: 1\r\nb: text\r\n");
+  ASSERT_EQ(root.entries.size(), 2u);
+  EXPECT_EQ(root.entries[0].first.scalar, "a");
+  EXPECT_EQ(Where(root.entries[0].first), "f.yaml:1:1");
+  EXPECT_EQ(Value(root, 1).scalar, "text");
+  EXPECT_EQ(Where(Value(root, 1)), "f.yaml:2:4");
+}
+
+TEST(StrictYaml, EmptyPlacesOfAListAreNull) {
+  const YamlNode root = Parse("a:\n  - 1\n  -\n\n  - ~\n  -\nb: [1, , 2]\nc: {x, y: 1}\n");
+  const std::vector<YamlNode>& items = Value(root, 0).items;
+  ASSERT_EQ(items.size(), 4u);
+  EXPECT_EQ(items[1].kind, Kind::kNull);
+  EXPECT_EQ(Where(items[1]), "f.yaml:3:3");
+  EXPECT_EQ(items[2].kind, Kind::kNull);
+  EXPECT_EQ(Where(items[2]), "f.yaml:5:5");
+  EXPECT_EQ(items[3].kind, Kind::kNull);
+  EXPECT_EQ(Where(items[3]), "f.yaml:6:3");
+  EXPECT_EQ(Value(root, 1).items[1].kind, Kind::kNull);
+  EXPECT_EQ(Where(Value(root, 1).items[1]), "f.yaml:7:8");
+  EXPECT_EQ(Value(Value(root, 2), 0).kind, Kind::kNull);
+}
+
+TEST(StrictYaml, RefusesAnchorsAliasesAndTags) {
+  const std::string anchor = "found an anchor or alias ('&' or '*'), expected plain values";
+  EXPECT_EQ(ParseError("a: &x 1\n").rfind("f.yaml:1:4: " + anchor, 0), 0u)
+      << ParseError("a: &x 1\n");
+  EXPECT_EQ(ParseError("b: 1\na: *x\n").rfind("f.yaml:2:4: " + anchor, 0), 0u);
+  EXPECT_EQ(ParseError("a: &x [1]\nb: *x\n").rfind("f.yaml:1:4: " + anchor, 0), 0u);
+  const std::string tag =
+      "found a tag ('!'), expected plain values (put a text that starts with '!' in quotes)";
+  EXPECT_EQ(ParseError("a: !!str 1\n"), "f.yaml:1:4: " + tag);
+  EXPECT_EQ(ParseError("a: ! 12\n"), "f.yaml:1:4: " + tag);
+  EXPECT_EQ(ParseError("a: !!null\nb: 1\n"), "f.yaml:1:4: " + tag);
+  EXPECT_EQ(ParseError("a: !!map {}\n"), "f.yaml:1:4: " + tag);
+  EXPECT_EQ(ParseError("a: !mine [1]\n"), "f.yaml:1:4: " + tag);
+  EXPECT_EQ(Value(Parse("a: '!x'\n"), 0).scalar, "!x");
+}
+
+TEST(StrictYaml, RefusesDuplicateKeysAtTheSecondPlace) {
+  EXPECT_EQ(
+      ParseError("a: 1\nb: 2\na: 3\n"),
+      "f.yaml:3:1: found the key 'a' a second time, expected it once (the first is in line 1)");
+  EXPECT_EQ(
+      ParseError("m: {k: 1, \"k\": 2}\n"),
+      "f.yaml:1:11: found the key 'k' a second time, expected it once (the first is in line 1)");
+  EXPECT_EQ(Parse("m: {k: 1}\nn: {k: 2}\n").entries.size(), 2u);
+}
+
+TEST(StrictYaml, RefusesKeysThatAreNotWords) {
+  const std::string expected = ", expected 'key: value' with a plain key, and every bracket closed";
+  const std::string open = "' that is not closed, or a list or mapping as key" + expected;
+  EXPECT_EQ(ParseError("? [1, 2]\n: x\n"), "f.yaml:1:3: found a '[" + open);
+  EXPECT_EQ(ParseError("? {a: 1}\n: x\n"), "f.yaml:1:3: found a '{" + open);
+  EXPECT_EQ(ParseError("? - a\n: x\n"), "f.yaml:1:3: found a key that is not a word" + expected);
+  EXPECT_EQ(ParseError("~: x\n"), "f.yaml:1:1: found a key that is not a word" + expected);
+  EXPECT_EQ(ParseError(std::string(1000000, '[')), "f.yaml:1:1: found a '[" + open);
+}
+
+TEST(StrictYaml, RefusesASecondDocumentAndAnEmptyOne) {
+  EXPECT_EQ(ParseError("a: 1\n---\nb: 1\n"),
+            "f.yaml:2:1: found a second document ('---'), expected one document in a file");
+  EXPECT_EQ(ParseError("a: 1\n---\n"),
+            "f.yaml:2:1: found a second document ('---'), expected one document in a file");
+  EXPECT_EQ(ParseError("[1, 2] x\n"),
+            "f.yaml:1:8: found more text after the document's end, expected one document (is the "
+            "indentation right, is every bracket open?)");
+  EXPECT_EQ(ParseError("- a\nb: 1\n").rfind("f.yaml:2:1: found more text after", 0), 0u);
+  for (const char* text : {"", "\n\n", "# only a comment\n", "---\n", "~\n"})
+    EXPECT_EQ(ParseError(text), "f.yaml: found an empty document, expected 'key: value' lines")
+        << text;
+  EXPECT_EQ(Parse("---\na: 1\n...\n").entries.size(), 1u);
+}
+
+TEST(StrictYaml, LimitsDepth) {
+  EXPECT_EQ(ParseError(std::string(64, '[') + std::string(64, ']')), "(no exception)");
+  EXPECT_EQ(
+      ParseError(std::string(65, '[') + std::string(65, ']')),
+      "f.yaml:1:65: found nesting deeper than 64, expected fewer lists and mappings inside one "
+      "another");
+  const std::string deeper = std::string(100000, '[') + std::string(100000, ']');
+  EXPECT_EQ(ParseError(deeper).rfind("f.yaml:1:65: found nesting", 0), 0u);
+  std::string deep;
+  for (int i = 0; i < 65; ++i) deep += std::string(i, ' ') + "k:\n";
+  EXPECT_EQ(ParseError(deep).rfind("f.yaml:65:65: found nesting", 0), 0u) << ParseError(deep);
+}
+
+TEST(StrictYaml, LimitsNodesAndBytes) {
+  YamlLimits limits;
+  EXPECT_EQ(limits.nodes, 10'000'000);
+  EXPECT_EQ(limits.bytes, 256L * 1024 * 1024);
+  limits.nodes = 4;
+  EXPECT_EQ(ParseError("[1, 2, 3]", limits), "(no exception)");
+  EXPECT_EQ(
+      ParseError("[1, 2, 3, 4]", limits),
+      "f.yaml:1:11: found more than 4 values, expected fewer (put large tables in CSV files)");
+  limits.bytes = 8;
+  EXPECT_EQ(ParseError("[1, 2, 3]", limits),
+            "f.yaml: found a text that is too large, expected at most 8 bytes");
+}
+
+TEST(StrictYaml, RefusesBytesThatAreNotText) {
+  const std::string utf8 =
+      "which is not UTF-8, expected UTF-8 text (save the file as UTF-8, not as Latin-1 or "
+      "Windows-1252)";
+  EXPECT_EQ(ParseError("a: 1\nb: \xE9t\xE9\n"), "f.yaml:2:4: found the byte 0xE9, " + utf8);
+  EXPECT_EQ(ParseError("\xC3\xA9: \xC0\xAF\n"), "f.yaml:1:4: found the byte 0xC0, " + utf8);
+  EXPECT_EQ(ParseError("a: \xED\xA0\x80\n"),
+            "f.yaml:1:4: found the byte 0xED, " + utf8);  // a surrogate
+  EXPECT_EQ(ParseError("a: \xF4\x90\x80\x80\n"), "f.yaml:1:4: found the byte 0xF4, " + utf8);
+  EXPECT_EQ(ParseError("a: \xE0\x80\x80\n"),
+            "f.yaml:1:4: found the byte 0xE0, " + utf8);  // overlong
+  EXPECT_EQ(ParseError("a: \xC3"), "f.yaml:1:4: found the byte 0xC3, " + utf8);
+  EXPECT_EQ(
+      ParseError(std::string_view("a: \0\n", 5)),
+      "f.yaml:1:4: found a NUL byte, expected text in UTF-8 (is it UTF-16, or not a text file?)");
+  EXPECT_EQ(ParseError(std::string_view("\xFF\xFE"
+                                        "a\0",
+                                        4)),
+            "f.yaml:1:1: found UTF-16 text, expected UTF-8 text (save the file as UTF-8)");
+  EXPECT_EQ(ParseError("a: \x04\n"),
+            "f.yaml:1:4: found the control character 0x04, expected plain text");
+  EXPECT_EQ(
+      ParseError("a: 1\rb: 2\r"),
+      "f.yaml:1:5: found a carriage return inside a line, expected lines that end in LF or CRLF");
+  EXPECT_EQ(Value(Parse("a: \xF0\x9F\x99\x82\n"), 0).scalar, "\xF0\x9F\x99\x82");
+}
+
+TEST(StrictYaml, ExplainsSyntaxErrors) {
+  const struct {
+    const char* text;
+    const char* message;
+  } cases[] = {
+      {"a:\n\tb: 1\n", "2:1: found a tab used as indentation, expected spaces"},
+      {"a: 1\n  \tb: 1\n", "2:3: found a tab used as indentation, expected spaces"},
+      {"a:1\nb: 2\n", "1:2: found no space after the ':' of 'a:1', expected 'key: value'"},
+      {"name x\nb: 2\n", "1:1: found 'name x' without ':', expected 'key: value'"},
+      {"a: b: c\n",
+       "1:5: found a second ':' in the line, expected quotes around a value that holds ': '"},
+      {"a: 1\n  b: 2\n",
+       "2:4: found a ':' where no key can stand, expected 'key: value' with the same indentation "
+       "as "
+       "its neighbours"},
+      {"x: 1\na: [1, 2\nb: 3\n",
+       "2:4: found a '[' that is not closed before line 3, expected ',' between the items and ']' "
+       "after the last"},
+      {"a: [[1, 2], [3, 4]\n",
+       "1:4: found a '[' that is not closed before line 2, expected ',' between the items and ']' "
+       "after the last"},
+      {"a: {x: 1\nb: 2\n",
+       "1:4: found a '{' that is not closed before line 2, expected ',' between the items and '}' "
+       "after the last"},
+      {"a: [1, 2}\n",
+       "1:9: found '}' without its opening bracket, expected every '[' closed by ']' and every '{' "
+       "by '}'"},
+      {"a: ]\n",
+       "1:4: found ']' without its opening bracket, expected every '[' closed by ']' and every '{' "
+       "by '}'"},
+      {"a:\n  b: 1\n c: 2\n",
+       "3:2: found a line whose indentation fits nothing above it, expected the same indentation "
+       "as "
+       "its neighbours"},
+      {"a: \"b\" c\n",
+       "1:8: found 'c' behind a value, expected the end of the line (a text that starts with a "
+       "quote "
+       "ends with it)"},
+      {"a: @x\n", "1:4: found a value that starts with '@', expected such a value in quotes"},
+      {"a: %x\n", "1:4: found a value that starts with '%', expected such a value in quotes"},
+      {"a: - 1\n",
+       "1:4: found a list item '- ' here, expected every '- ' on a line of its own, as far to the "
+       "right"},
+      {"a: \"\\q\"\n",
+       "1:7: found a backslash that starts no known escape, expected '\\\\' for a backslash in "
+       "double "
+       "quotes, or single quotes"},
+      {"b: 1\na: \"xx\n", "2:4: found a \" that is not closed, expected a closing quote"},
+      {"a: 'it''s\nb: 1\n", "1:4: found a ' that is not closed, expected a closing quote"},
+      {"a: \"x\\\"\nb: 1\n", "1:4: found a \" that is not closed, expected a closing quote"},
+  };
+  for (const auto& c : cases)
+    EXPECT_EQ(ParseError(c.text), std::string("f.yaml:") + c.message) << c.text;
+}
+
+TEST(StrictYaml, QuotesThatAreClosedAreRead) {
+  EXPECT_EQ(Value(Parse("a: 'it''s'\n"), 0).scalar, "it's");
+  EXPECT_EQ(Value(Parse("a: \"a \\\"b\\\" \\\\\"\n"), 0).scalar, "a \"b\" \\");
+  EXPECT_EQ(Value(Parse("a: ''"), 0).scalar, "");
+  EXPECT_TRUE(Value(Parse("a: ''"), 0).quoted);
+}
+
+TEST(StrictYaml, NamesFilesThatCannotBeRead) {
+  EXPECT_EQ(InputErrorText([] { ParseYamlFile("no/such/file.yaml"); }),
+            "no/such/file.yaml: found no file, expected a file that can be read");
+  EXPECT_EQ(InputErrorText([] { ParseYamlFile("."); }),
+            ".: found no file but a folder, expected a file that can be read");
+}
+
+TEST(StrictYaml, DescribesWhatItFound) {
+  const YamlNode root =
+      Parse("[abc, '1', 1.5, [], [1, 2], {}, {a: 1}, {a: 1, b: 2}, ~, \"a\\nb\", nan]");
+  const char* expected[] = {"the text 'abc'",
+                            "the text '1'",
+                            "the number 1.5",
+                            "an empty list",
+                            "a list of 2",
+                            "an empty mapping",
+                            "a mapping of 1 key",
+                            "a mapping of 2 keys",
+                            "nothing",
+                            "the text 'a?b'",
+                            "the text 'nan'"};
+  for (std::size_t i = 0; i < root.items.size(); ++i)
+    EXPECT_EQ(Describe(root.items[i]), expected[i]);
+  EXPECT_EQ(Describe(Parse(std::string(200, 'x'))), "the text '" + std::string(60, 'x') + "...'");
+}
+
+std::string NumberError(const std::string& value) {
+  const YamlNode root = Parse("v: " + value + "\n");
+  return InputErrorText([&] { ReadNumber(Value(root, 0)); });
+}
+
+TEST(StrictYaml, ReadsNumbers) {
+  EXPECT_EQ(ReadNumber(Value(Parse("v: -1.5e3\n"), 0)), -1500.0);
+  EXPECT_EQ(ReadNumber(Value(Parse("v: +2\n"), 0)), 2.0);
+  EXPECT_EQ(NumberError("'1.5'"),
+            "f.yaml:1:4: found the text '1.5', expected a number (without quotes)");
+  EXPECT_EQ(NumberError("'abc'"), "f.yaml:1:4: found the text 'abc', expected a number");
+  EXPECT_EQ(
+      NumberError("1,5"),
+      "f.yaml:1:4: found the text '1,5', expected a number (the decimal point is '.', not ',')");
+  EXPECT_EQ(NumberError("1_000"),
+            "f.yaml:1:4: found the text '1_000', expected a number (without separators between the "
+            "digits)");
+  EXPECT_EQ(NumberError("0x10"),
+            "f.yaml:1:4: found the text '0x10', expected a number (in decimal, not hexadecimal)");
+  for (const char* text : {".nan", ".inf", "-.inf", "+.inf"})
+    EXPECT_EQ(NumberError(text),
+              std::string("f.yaml:1:4: found the text '") + text +
+                  "', expected a number (finite: nan and inf cannot be used)");
+  for (const char* text : {"nan", "inf", "-inf", "1e999"})
+    EXPECT_EQ(NumberError(text),
+              std::string("f.yaml:1:4: found the text '") + text +
+                  "', expected a number (finite: nan, inf and too large numbers cannot be used)");
+  EXPECT_EQ(NumberError("[1]"), "f.yaml:1:4: found a list of 1, expected a number");
+  EXPECT_EQ(NumberError(""), "f.yaml:1:1: found nothing, expected a number");
+  EXPECT_EQ(NumberError("true"), "f.yaml:1:4: found the text 'true', expected a number");
+}
+
+TEST(StrictYaml, ReadsTheOtherKinds) {
+  const YamlNode root = Parse("[7, true, false, abc, 'q', 1.5, yes, 'true', ~, {}, '7', True]");
+  const auto error = [&](auto read, std::size_t i) {
+    return InputErrorText([&] { read(root.items[i]); });
+  };
+  const auto integer = [](const YamlNode& n) { ReadInteger(n); };
+  const auto boolean = [](const YamlNode& n) { ReadBool(n); };
+  const auto text = [](const YamlNode& n) { ReadText(n); };
+  const auto list = [](const YamlNode& n) { ReadSequence(n); };
+  EXPECT_EQ(ReadInteger(root.items[0]), 7);
+  EXPECT_EQ(error(integer, 5), "f.yaml:1:28: found the number 1.5, expected a whole number");
+  EXPECT_EQ(error(integer, 10),
+            "f.yaml:1:53: found the text '7', expected a whole number (without quotes)");
+  EXPECT_TRUE(ReadBool(root.items[1]));
+  EXPECT_FALSE(ReadBool(root.items[2]));
+  EXPECT_EQ(error(boolean, 6), "f.yaml:1:33: found the text 'yes', expected true or false");
+  EXPECT_EQ(error(boolean, 7),
+            "f.yaml:1:38: found the text 'true', expected true or false (without quotes)");
+  EXPECT_EQ(error(boolean, 11), "f.yaml:1:58: found the text 'True', expected true or false");
+  EXPECT_EQ(ReadText(root.items[3]), "abc");
+  EXPECT_EQ(ReadText(root.items[4]), "q");
+  EXPECT_EQ(ReadText(root.items[0]), "7");
+  EXPECT_EQ(error(text, 8), "f.yaml:1:46: found nothing, expected text");
+  EXPECT_EQ(error(text, 9), "f.yaml:1:49: found an empty mapping, expected text");
+  EXPECT_EQ(ReadSequence(root).size(), 12u);
+  EXPECT_EQ(error(list, 3), "f.yaml:1:18: found the text 'abc', expected a list");
+}
+
+TEST(StrictYaml, ReadsListsOfNumbersOfExactSize) {
+  const YamlNode root = Parse("[[1, -2, 3.5], [1, 2], 5, [1, x, 3]]");
+  EXPECT_EQ(ReadNumbers(root.items[0], 3, "[x, y, z]"), (std::vector<double>{1, -2, 3.5}));
+  const auto error = [&](std::size_t i) {
+    return InputErrorText([&] { ReadNumbers(root.items[i], 3, "[x, y, z]"); });
+  };
+  EXPECT_EQ(error(1), "f.yaml:1:16: found a list of 2, expected [x, y, z]");
+  EXPECT_EQ(error(2), "f.yaml:1:24: found the number 5, expected [x, y, z]");
+  EXPECT_EQ(error(3), "f.yaml:1:31: found the text 'x', expected a number in [x, y, z]");
+}
+
+TEST(StrictYaml, MapReaderKnowsItsKeys) {
+  const YamlNode root = Parse("name: n\nunits: u\n");
+  const MapReader reader(root, "the dataset", {"name", "units", "format"});
+  EXPECT_EQ(ReadText(reader.Required("name")), "n");
+  EXPECT_TRUE(reader.Has("units"));
+  EXPECT_FALSE(reader.Has("format"));
+  EXPECT_EQ(reader.Optional("format"), nullptr);
+  EXPECT_EQ(reader.where().ToString(), "f.yaml:1:1");
+  EXPECT_EQ(InputErrorText([&] { reader.Required("format"); }),
+            "f.yaml:1:1: found no key 'format' in the dataset, expected 'format: ...', which is "
+            "required");
+}
+
+std::string MapError(std::string_view text) {
+  const YamlNode root = Parse(text);
+  return InputErrorText([&] { MapReader(root, "the dataset", {"name", "measurement"}); });
+}
+
+TEST(StrictYaml, MapReaderRefusesUnknownKeysAndOtherKinds) {
+  EXPECT_EQ(MapError("name: x\nmesurement: 1\n"),
+            "f.yaml:2:1: found the unknown key 'mesurement' in the dataset, expected one of name, "
+            "measurement (did you mean 'measurement'?)");
+  EXPECT_EQ(MapError("name: x\nfoo: 1\n"),
+            "f.yaml:2:1: found the unknown key 'foo' in the dataset, expected one of name, "
+            "measurement");
+  EXPECT_EQ(MapError("{name:x}\n"),
+            "f.yaml:1:2: found the unknown key 'name:x' in the dataset, expected one of name, "
+            "measurement (is a space missing after ':'?)");
+  EXPECT_EQ(
+      MapError("name:x\n"),
+      "f.yaml:1:1: found the text 'name:x', expected the dataset as a mapping of 'key: value' "
+      "(is a space missing after ':'?)");
+  EXPECT_EQ(MapError("[1, 2]\n"),
+            "f.yaml:1:1: found a list of 2, expected the dataset as a mapping of 'key: value'");
+  const YamlNode root = Parse("a: 1\n");
+  EXPECT_EQ(InputErrorText([&] { MapReader(root, "it", {"file"}); }),
+            "f.yaml:1:1: found the unknown key 'a' in it, expected only file");
+}
+
+TEST(StrictYaml, NearestWord) {
+  const std::vector<std::string_view> known = {"name", "file", "measurement", "units"};
+  EXPECT_EQ(NearestWord("nmae", known), "name");
+  EXPECT_EQ(NearestWord("Name", known), "name");
+  EXPECT_EQ(NearestWord("unit", known), "units");
+  EXPECT_EQ(NearestWord("measurements", known), "measurement");
+  EXPECT_EQ(NearestWord("fil", known), "file");
+  EXPECT_EQ(NearestWord("xy", known), "");
+  EXPECT_EQ(NearestWord("payload", known), "");
+  EXPECT_EQ(NearestWord("", known), "");
+  EXPECT_EQ(NearestWord(std::string(100000, 'x'), known), "");
+}
+
+TEST(StrictYaml, DoesNotCareForTheLocale) {
+  const testing::DecimalComma locale;
+  std::string text(2000, '\n');
+  const YamlNode root = Parse(text + "a: 1234.5\n");
+  EXPECT_EQ(ReadNumber(Value(root, 0)), 1234.5);
+  EXPECT_EQ(Where(Value(root, 0)), "f.yaml:2001:4");
+  EXPECT_EQ(ParseError(text + "a: @\n").rfind("f.yaml:2001:4: ", 0), 0u);
+}
+
+}  // namespace
+}  // namespace hexcal
