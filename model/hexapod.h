@@ -2,8 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <optional>
 #include <string>
 
 #include "geometry/pose.h"
@@ -21,7 +19,8 @@ LegLengths InverseKinematics(const HexapodGeometry& hexapod, const Pose3d& base_
 Matrix6d LegJacobian(const HexapodGeometry& hexapod, const Pose3d& base_from_platform);
 
 // Where forward kinematics starts when nobody says better: home, else the platform held level over
-// the base at the height that the mean leg length asks for.
+// the centroid of the base joints, on the side of +z of frame B, at the height at which the mean
+// squared leg length is right. Legs too short for any height: a tenth of their mean.
 Pose3d NeutralPose(const HexapodGeometry& hexapod, const LegLengths& lengths);
 
 struct ForwardKinematicsResult {
@@ -32,8 +31,9 @@ struct ForwardKinematicsResult {
   std::string message;  // why it did not converge
 };
 
-// Newton with step control on the six lengths, from start. Converged: every length is met to 1e-12
-// of the largest leg.
+// Levenberg-Marquardt on the six lengths, from start. Converged: every length is met to 1e-12 of
+// the largest leg. The platform stays on start's side of the base joints' plane; of the poses there
+// the one is sought that start could move to without passing a singular pose, else any.
 ForwardKinematicsResult ForwardKinematics(const HexapodGeometry& hexapod,
                                           const LegLengths& lengths,
                                           const Pose3d& start);
