@@ -14,11 +14,14 @@ namespace hexcal {
 // Rows of a table, one after another, from a CSV file or from an inline YAML list of lists whose
 // first row is the header. CSV: commas, '#' comment lines, blank lines skipped, UTF-8 with or
 // without a byte-order mark, LF or CRLF; cells are trimmed; no quoting (a quote character is
-// refused). At most 10 million rows; a file above 4 GiB is refused.
+// refused). At most 10 million rows; a file above 4 GiB is refused. Views of cells last until
+// Next().
 class TableReader {
  public:
   static TableReader FromFile(const std::string& path);
+  // Keeps a reference to rows, which must live as long.
   static TableReader FromRows(const YamlNode& rows);
+  static TableReader FromRows(YamlNode&& rows) = delete;
   TableReader(TableReader&&) noexcept;
   TableReader& operator=(TableReader&&) noexcept;
   ~TableReader();
@@ -39,8 +42,9 @@ class TableReader {
   Location CellLocation(int column) const;
   Location RowLocation() const;
 
+  struct Impl;  // a CSV file or inline rows; defined in table.cc
+
  private:
-  struct Impl;
   explicit TableReader(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
