@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "config/input_error.h"
+#include "measurement/dataset.h"
+
+namespace hexcal {
+
+// 'text' for a message: shortened when long, control characters replaced.
+std::string Quoted(std::string_view text);
+
+// What a measurement of a pose that is not known should have been.
+inline constexpr const char* kKnownPose =
+    "a pose that robot_poses lists (labels are compared as text)";
+
+// Labels (of poses, markers, frames and covariates) are text that a CSV cell can carry: not empty,
+// no comma, quote, line break or other control character, no leading '#', no blanks at the ends.
+// what: for the message ("pose label").
+void CheckLabel(std::string_view text, const Location& where, std::string_view what);
+
+// From a pose's label to its row. Refers to the labels in rows, which must outlive it unmoved.
+class PoseIndex {
+ public:
+  // InputError for a label that stands twice, with both lines.
+  explicit PoseIndex(const RobotPoses& robot_poses);
+
+  // The row, or -1. Rows of one pose usually stand together, so the last answer is tried first.
+  int Find(std::string_view label);
+
+ private:
+  std::unordered_map<std::string_view, int> row_of_label_;
+  std::string_view last_label_;
+  int last_row_ = -1;
+};
+
+}  // namespace hexcal

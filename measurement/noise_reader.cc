@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "measurement/noise_reader.h"
+
+#include <fmt/format.h>
+
+namespace hexcal {
+
+double ReadSigma(const YamlNode& node, std::string_view what) {
+  const double sigma = ReadNumber(node, fmt::format("the 1-sigma of {}", what));
+  if (sigma > 0) return sigma;
+  throw InputError(
+      node.where, fmt::format("{} for the 1-sigma of {}", sigma, what), "a number above zero");
+}
+
+Eigen::Vector3d ReadSigmas(const YamlNode& node, std::string_view what) {
+  if (node.kind == YamlNode::Kind::kScalar) return Eigen::Vector3d::Constant(ReadSigma(node, what));
+  const std::string expected = fmt::format("the 1-sigma of {}: a number, or three", what);
+  if (node.kind != YamlNode::Kind::kSequence || node.items.size() != 3)
+    throw InputError(node.where, Describe(node), expected);
+  return {ReadSigma(node.items[0], what),
+          ReadSigma(node.items[1], what),
+          ReadSigma(node.items[2], what)};
+}
+
+PoseNoise ReadPoseNoise(const YamlNode& node, const Units& units) {
+  const MapReader map(node, "the noise of poses", {"position", "orientation"});
+  PoseNoise noise;
+  noise.position = units.length * ReadSigmas(map.Required("position"), "the position");
+  noise.orientation = units.angle * ReadSigmas(map.Required("orientation"), "the orientation");
+  return noise;
+}
+
+}  // namespace hexcal

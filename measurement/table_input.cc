@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "measurement/table_input.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <unordered_set>
+
+#include "measurement/labels.h"
+
+namespace hexcal {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kInside = "the path of a table in the folder of this file, relative to it";
+
+bool StartsWith(const fs::path& path, const fs::path& folder) {
+  const auto [folder_end, unused] =
+      std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
+  return folder_end == folder.end();
+}
+
+std::string TablePath(const YamlNode& node, const ReadContext& context) {
+  const std::string text = ReadText(node, "the path of a table");
+  const auto refuse = [&](std::string_view problem) {
+    throw InputError(
+        node.where, fmt::format("the path {}, which {}", Quoted(text), problem), kInside);
+  };
+  const fs::path relative(text);
+  if (text.empty()) throw InputError(node.where, "an empty path", kInside);
+  if (relative.is_absolute()) refuse("is absolute");
+  if (*relative.lexically_normal().begin() == "..") refuse("leaves the dataset's folder");
+
+  const fs::path folder = fs::path(context.path).parent_path();
+  const fs::path path = folder / relative;
+  std::error_code error;
+  const fs::path real_path = fs::canonical(path, error);
+  if (error)
+    throw InputError(node.where,
+                     fmt::format("no file {}", Quoted(text)),
+                     "an existing table (its path is relative to this file)");
+  if (!StartsWith(real_path, fs::canonical(folder.empty() ? "." : folder)))
+    refuse("leaves the dataset's folder by a symbolic link");
+  if (!fs::is_regular_file(real_path, error)) refuse("is not a file");
+  return path.string();
+}
+
+}  // namespace
+
+TableReader OpenTable(const MapReader& mapping, std::string_view what, const ReadContext& context) {
+  const YamlNode* file = mapping.Optional("file");
+  const YamlNode* rows = mapping.Optional("rows");
+  constexpr const char* kOneOfThem = "one of them";
+  if (file == nullptr && rows == nullptr)
+    throw InputError(
+        mapping.where(), fmt::format("neither file: nor rows: in {}", what), kOneOfThem);
+  if (file != nullptr && rows != nullptr)
+    throw InputError(rows->where, fmt::format("both file: and rows: in {}", what), kOneOfThem);
+  return file != nullptr ? TableReader::FromFile(TablePath(*file, context))
+                         : TableReader::FromRows(*rows);
+}
+
+void CheckColumns(const TableReader& table,
+                  const std::vector<std::string_view>& required,
+                  const std::vector<std::string_view>& optional,
+                  std::string_view expected) {
+  std::vector<std::string_view> known = required;
+  known.insert(known.end(), optional.begin(), optional.end());
+  const std::unordered_set<std::string_view> known_set(known.begin(), known.end());
+  std::unordered_set<std::string_view> seen;
+  for (std::size_t i = 0; i < table.header().size(); ++i) {
+    const std::string& column = table.header()[i];
+    const Location where = table.HeaderLocation(static_cast<int>(i));
+    seen.insert(column);
+    if (known_set.count(column) > 0) continue;
+    const std::string nearest = NearestWord(column, known);
+    throw InputError(where,
+                     fmt::format("the unknown column {}", Quoted(column)),
+                     nearest.empty() ? std::string(expected)
+                                     : fmt::format("{} (did you mean '{}'?)", expected, nearest));
+  }
+  for (const std::string_view column : required)
+    if (seen.count(column) == 0)
+      throw InputError(table.HeaderLocation(0), fmt::format("no column '{}'", column), expected);
+}
+
+}  // namespace hexcal
