@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "estimator/estimate.h"
+#include "estimator/linearized.h"
+#include "estimator/nonlinear.h"
+
+namespace hexcal {
+
+enum class Solver { kNonlinear, kLinearized };
+enum class Start { kClosedForm, kShah, kParkMartin, kInitial, kIdentity };
+
+struct CalibrateOptions {
+  Solver solver = Solver::kNonlinear;
+  std::optional<Start>
+      start;  // default: closed form; linearized: initial where given, else identity
+  std::optional<NoiseLevels> noise;  // in place of a noise that is not given; else it is estimated
+  LinearizedOptions linearized;
+  NonlinearOptions nonlinear;
+};
+
+// Base and tool with covariance. Weights are the inverse covariances of the poses; where the tool's
+// noise is unknown it is estimated together with the mounts (never set to one). The paper's error
+// alone keeps the paper's equal weights, and its covariance is that of the equally weighted
+// estimator.
+Estimate Calibrate(const Observations& observations,
+                   const std::optional<BaseAndTool>& initial,
+                   const CalibrateOptions& options);
+
+}  // namespace hexcal

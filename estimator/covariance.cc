@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/covariance.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+#include <algorithm>
+
+namespace hexcal {
+namespace {
+
+// Parts of a null direction smaller than this (columns scaled) are rounding.
+constexpr double kRoundingShare = 1e-6;
+// Parts worth a word.
+constexpr double kNamedShare = 0.05;
+
+std::string Vector3Text(const Eigen::Vector3d& v) {
+  // Adding zero turns -0 into 0.
+  const auto round = [](double x) { return std::round(x * 1e3) / 1e3 + 0.0; };
+  return fmt::format("[{} {} {}]", round(v.x()), round(v.y()), round(v.z()));
+}
+
+// A direction in m and rad, as a sentence for the person who must choose the next poses.
+std::string DescribeDirection(const Vector12d& direction) {
+  const Eigen::Vector3d base_shift = direction.segment<3>(0), base_turn = direction.segment<3>(3);
+  const Eigen::Vector3d tool_shift = direction.segment<3>(6), tool_turn = direction.segment<3>(9);
+  const double shift = std::max(base_shift.norm(), tool_shift.norm());
+  const double turn = std::max(base_turn.norm(), tool_turn.norm());
+  const double largest = direction.cwiseAbs().maxCoeff();
+  std::string parts;
+  for (int i = 0; i < 12; ++i)
+    if (std::abs(direction[i]) > kNamedShare * largest)
+      parts += fmt::format(
+          "{}{} {:+.3f}", parts.empty() ? "" : ", ", kParameters[i].name, direction[i] / largest);
+  const bool shifts_only = turn < kNamedShare * shift;
+  if (shifts_only && base_shift.norm() > 0.5 * shift && tool_shift.norm() > 0.5 * shift)
+    return fmt::format(
+        "a shift of the base along {} of frame base against the tool along {} of frame tool ({}): "
+        "no rotation in the "
+        "data tilts this axis; measure poses that do",
+        Vector3Text(base_shift.normalized()),
+        Vector3Text(tool_shift.normalized()),
+        parts);
+  if (shifts_only)
+    return fmt::format(
+        "a shift of base and tool that leaves every predicted pose as it is ({}): measure poses "
+        "with larger "
+        "rotations about more than one axis",
+        parts);
+  return fmt::format(
+      "a turn of base and tool together that leaves every predicted pose as it is ({}): measure "
+      "poses "
+      "with larger rotations about more than one axis",
+      parts);
+}
+
+bool IsNull(double singular_value,
+            double largest,
+            const Vector12d& one_sigma,
+            const CovarianceOptions& options) {
+  if (!(singular_value > options.smallest_ratio * largest)) return true;
+  if (singular_value < 3.0 * options.robot_orientation_noise_rad) return true;
+  for (int i = 0; i < 12; ++i) {
+    const double limit =
+        kParameters[i].is_angle ? options.largest_sigma_rad : options.largest_sigma_m;
+    if (!(std::abs(one_sigma[i]) <= limit)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+void JacobianFactor::Add(const Matrix6x12d& whitened) {
+  if (used_ + 6 > kChunkRows) Compress();
+  rows_.middleRows<6>(used_) = whitened;
+  used_ += 6;
+}
+
+void JacobianFactor::Compress() {
+  rows_.bottomRows(kChunkRows - used_).setZero();
+  const Eigen::HouseholderQR<Eigen::Matrix<double, kChunkRows, 12>> qr(rows_);
+  const Matrix12d r = qr.matrixQR().topRows<12>().triangularView<Eigen::Upper>();
+  rows_.topRows<12>() = r;
+  used_ = 12;
+}
+
+Matrix12d JacobianFactor::R() {
+  Compress();
+  return rows_.topRows<12>();
+}
+
+ParameterCovariance ComputeCovariance(const Matrix12d& r_factor, const CovarianceOptions& options) {
+  const Vector12d norms = r_factor.colwise().norm().transpose();
+  const Vector12d unscale = norms.unaryExpr([](double n) { return n > 0 ? 1.0 / n : 1.0; });
+  const Eigen::JacobiSVD<Matrix12d> svd(r_factor * unscale.asDiagonal(),
+                                        Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Vector12d s = svd.singularValues();
+
+  ParameterCovariance result;
+  Observability& observability = result.observability;
+  observability.singular_values = s;
+  observability.condition_number = s[0] / s[11];
+  observability.determined.fill(true);
+  for (int k = 0; k < 12; ++k) {
+    const Vector12d scaled = svd.matrixV().col(k);
+    const Vector12d direction = unscale.asDiagonal() * scaled;
+    if (IsNull(s[k], s[0], direction / s[k], options)) {
+      ++observability.null_directions;
+      observability.weak_directions.push_back(DescribeDirection(direction));
+      for (int i = 0; i < 12; ++i)
+        if (std::abs(scaled[i]) > kRoundingShare) observability.determined[i] = false;
+    } else {
+      result.covariance += direction * direction.transpose() / (s[k] * s[k]);
+    }
+  }
+  return result;
+}
+
+}  // namespace hexcal

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "estimator/covariance.h"
+#include "estimator/observations.h"
+#include "residuals/pose_error.h"
+
+namespace hexcal {
+
+// One step of an iterative solver; the first record is the start. RMS errors as in Eq. (42), m and
+// rad.
+struct IterationRecord {
+  double cost = 0.0;  // half the sum of squared residuals that the solver minimises
+  double rmspe = 0.0;
+  double rmsoe = 0.0;
+};
+
+// What an iterative solver found for one set of weights.
+struct Solution {
+  BaseAndTool mounts;
+  bool converged = false;
+  std::string message;
+  std::vector<IterationRecord> iterations;
+};
+
+struct PoseResult {
+  std::string label;
+  double weight = 1.0;
+  Vector6d residual = Vector6d::Zero();  // measured [-] predicted, [m, rad], frame T, not whitened
+};
+
+struct NoiseSummary {
+  double position = 0.0;     // 1-sigma of a coordinate, m: the mean over poses and axes
+  double orientation = 0.0;  // rad
+  bool estimated = false;
+};
+
+// A calibration with all that judges it.
+struct Estimate {
+  BaseAndTool mounts;
+  bool converged = false;
+  std::string message;  // why it did not converge
+  std::vector<IterationRecord> iterations;
+  std::vector<PoseResult> poses;
+
+  NoiseSummary noise;
+  double noise_scale = 1.0;  // sqrt(chi_square / degrees_of_freedom)
+  double rmspe = 0.0;        // m; of pose-vector differences for the paper's error, else of [-]
+  double rmsoe = 0.0;        // rad
+  double chi_square = 0.0;
+  int degrees_of_freedom = 0;
+
+  Matrix12d covariance_unscaled = Matrix12d::Zero();
+  Matrix12d covariance = Matrix12d::Zero();  // the one to use
+  Observability observability;               // which of the 12 are determined
+  std::vector<std::string> warnings;
+
+  // False: the 12 parameters cannot be trusted (exit status 4).
+  bool IsTrustworthy() const { return converged && observability.null_directions == 0; }
+};
+
+}  // namespace hexcal

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/nonlinear.h"
+
+#include <ceres/ceres.h>
+#include <glog/logging.h>
+
+#include "residuals/pose_manifold.h"
+#include "residuals/pose_residual.h"
+
+namespace hexcal {
+namespace {
+
+// Writes down the RMS errors of every accepted or refused step.
+class Recorder : public ceres::IterationCallback {
+ public:
+  Recorder(const std::vector<Observation>& observations,
+           const double* base,
+           const double* tool,
+           const NonlinearOptions& options,
+           std::vector<IterationRecord>* records)
+      : observations_(observations),
+        base_(base),
+        tool_(tool),
+        options_(options),
+        records_(records) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
+    const BaseAndTool mounts{Pose3d::FromParameters(base_), Pose3d::FromParameters(tool_)};
+    IterationRecord record;
+    record.cost = summary.cost;
+    for (const Observation& o : observations_) {
+      const Vector6d e = PoseError(mounts, o.base_from_platform, o.world_from_tool);
+      record.rmspe += e.head<3>().squaredNorm() / observations_.size();
+      record.rmsoe += e.tail<3>().squaredNorm() / observations_.size();
+    }
+    record.rmspe = std::sqrt(record.rmspe);
+    record.rmsoe = std::sqrt(record.rmsoe);
+    records_->push_back(record);
+    return !options_.keep_going || options_.keep_going() ? ceres::SOLVER_CONTINUE
+                                                         : ceres::SOLVER_ABORT;
+  }
+
+ private:
+  const std::vector<Observation>& observations_;
+  const double* base_;
+  const double* tool_;
+  const NonlinearOptions& options_;
+  std::vector<IterationRecord>* records_;
+};
+
+ceres::Solver::Options SolverOptions(const NonlinearOptions& options) {
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_QR;
+  solver.max_num_iterations = options.max_iterations;
+  solver.function_tolerance = options.tolerance;
+  solver.parameter_tolerance = options.tolerance;
+  // The gradient has no scale of its own here: weights may be anything from 1 to 1e32.
+  solver.gradient_tolerance = 0.0;
+  solver.num_threads =
+      1;  // the order of sums, and with it every bit of the result, must not depend on the machine
+  solver.update_state_every_iteration = true;
+  solver.logging_type = ceres::SILENT;
+  return solver;
+}
+
+}  // namespace
+
+Solution SolveNonlinear(const std::vector<Observation>& observations,
+                        const std::vector<Matrix6d>& whiteners,
+                        const BaseAndTool& start,
+                        const NonlinearOptions& options) {
+  CHECK_EQ(observations.size(), whiteners.size());
+  double base[Pose3d::kNumParameters], tool[Pose3d::kNumParameters];
+  start.world_from_base.ToParameters(base);
+  start.platform_from_tool.ToParameters(tool);
+  PoseManifold manifold;
+  ceres::Problem::Options problem_options;
+  problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ceres::Problem problem(problem_options);
+  problem.AddParameterBlock(base, Pose3d::kNumParameters, &manifold);
+  problem.AddParameterBlock(tool, Pose3d::kNumParameters, &manifold);
+  for (std::size_t i = 0; i < observations.size(); ++i)
+    problem.AddResidualBlock(
+        PoseResidual::Create(
+            observations[i].base_from_platform, observations[i].world_from_tool, whiteners[i]),
+        nullptr,
+        base,
+        tool);
+
+  Solution solution;
+  Recorder recorder(observations, base, tool, options, &solution.iterations);
+  ceres::Solver::Options solver_options = SolverOptions(options);
+  solver_options.callbacks.push_back(&recorder);
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver_options, &problem, &summary);
+  solution.converged = summary.termination_type == ceres::CONVERGENCE;
+  if (!solution.converged) solution.message = summary.message;
+  solution.mounts = {Pose3d::FromParameters(base), Pose3d::FromParameters(tool)};
+  return solution;
+}
+
+}  // namespace hexcal

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "estimator/estimate.h"
+
+namespace hexcal {
+
+struct NonlinearOptions {
+  int max_iterations = 100;
+  double tolerance = 1e-15;  // of the cost and of the parameters, relative
+  // Called after every iteration; false stops the solver, which then reports no convergence.
+  std::function<bool()> keep_going;
+};
+
+// The Ceres problem: world_from_base and platform_from_tool on PoseManifold, one PoseResidual an
+// observation with the given whiteners (one an observation), Levenberg-Marquardt with dense QR.
+Solution SolveNonlinear(const std::vector<Observation>& observations,
+                        const std::vector<Matrix6d>& whiteners,
+                        const BaseAndTool& start,
+                        const NonlinearOptions& options);
+
+}  // namespace hexcal
