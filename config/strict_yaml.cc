@@ -215,15 +215,14 @@ class TreeBuilder : public YAML::EventHandler {
     return frame.node.kind == YamlNode::Kind::kMap && !frame.key;
   }
 
-  // (An unclosed bracket at the end of the file looks like a key to the parser.)
+  // A bracket that is not closed may look like a key to the parser, or seem to hold a missing one.
   [[noreturn]] void RefuseKey(const YamlNode& node, std::size_t offset) const {
     const char first = offset < text_.size() ? text_[offset] : ' ';
-    throw InputError(
-        node.where,
-        first == '[' || first == '{'
-            ? fmt::format("a '{}' that is not closed, or a list or mapping as key", first)
-            : "a key that is not a word",
-        "'key: value' with a plain key, and every bracket closed");
+    if (first != '[' && first != '{')
+      throw InputError(node.where, "a key that is not a word", "'key: value' with a plain key");
+    throw InputError(node.where,
+                     fmt::format("a '{}' that is not closed, or wrong as key or entries", first),
+                     "plain keys, ',' between entries and every bracket closed");
   }
 
   void Add(YamlNode node) {
@@ -243,7 +242,10 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   void SetKey(Frame& frame, YamlNode key) {
-    if (key.kind != YamlNode::Kind::kScalar) RefuseKey(key, kNoBracket);
+    if (key.kind != YamlNode::Kind::kScalar) {
+      const bool flow = frame.offset < text_.size() && text_[frame.offset] == '{';
+      RefuseKey(flow ? frame.node : key, flow ? frame.offset : kNoBracket);
+    }
     const auto [entry, is_new] = frame.key_lines.emplace(key.scalar, key.where.line);
     if (!is_new)
       throw InputError(key.where,

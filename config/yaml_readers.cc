@@ -22,8 +22,10 @@ std::string_view QuoteHint(const YamlNode& node, bool parses) {
   return node.quoted && parses ? " (without quotes)" : "";
 }
 
-// "key:value" without the space is one word to YAML.
+// YAML takes "key:value" without the space, and "key {a: b" without its ':', as one word.
 std::string_view ColonHint(std::string_view word) {
+  if (word.find_first_of("[{") != std::string_view::npos && word.find_first_of("[{") > 0)
+    return " (is a ':' missing before the bracket?)";
   const std::size_t colon = word.find(':');
   const bool glued = colon != std::string_view::npos && colon > 0;
   return glued ? " (is a space missing after ':'?)" : "";

@@ -71,12 +71,17 @@ YamlSyntaxError ExplainMapValue(std::string_view text, std::size_t offset) {
   if (const std::optional<Line> above = LastLineBefore(text, line)) {
     const std::size_t colon = ColonWithoutSpace(*above);
     if (colon != std::string_view::npos) return ExplainMissingSpace(*above, colon);
-    if (above->text.find(':') == std::string_view::npos)
-      return {above->begin + above->FirstWord(),
-              fmt::format("'{}' without ':'", Shorten(above->text.substr(above->FirstWord()))),
+    const std::size_t word = above->FirstWord();
+    if (word >= line.FirstWord() && IsKeyCharacter(above->text[word]) &&
+        above->text.substr(word, 2) != "- " && above->text.find(':') == std::string_view::npos)
+      return {above->begin + word,
+              fmt::format("'{}' without ':'", Shorten(above->text.substr(word))),
               "'key: value'"};
   }
   const std::string_view before = line.text.substr(0, offset - line.begin);
+  const std::size_t brace = before.find('{');
+  if (brace != std::string_view::npos && brace > 0 && before.find(':') > brace)
+    return {line.begin + brace, "a '{' without ':' before it", "'key: {...}'"};
   if (before.find(": ") != std::string_view::npos)
     return {offset, "a second ':' in the line", "quotes around a value that holds ': '"};
   return {offset,
@@ -87,9 +92,13 @@ YamlSyntaxError ExplainMapValue(std::string_view text, std::size_t offset) {
 YamlSyntaxError ExplainOpenBracket(std::string_view text, std::size_t bracket, std::size_t stop) {
   const char open = text[bracket];
   const char close = open == '[' ? ']' : '}';
-  const auto line = std::count(text.begin(), text.begin() + static_cast<long>(stop), '\n') + 1;
+  const auto line_of = [&](std::size_t offset) {
+    return std::count(text.begin(), text.begin() + static_cast<long>(offset), '\n') + 1;
+  };
   return {bracket,
-          fmt::format("a '{}' that is not closed before line {}", open, line),
+          line_of(stop) == line_of(bracket)
+              ? fmt::format("a '{}' that is not followed by a list of items and '{}'", open, close)
+              : fmt::format("a '{}' that is not closed before line {}", open, line_of(stop)),
           fmt::format("',' between the items and '{}' after the last", close)};
 }
 
@@ -101,7 +110,7 @@ YamlSyntaxError ExplainEndOfBlock(std::string_view text, std::size_t offset) {
             "the same indentation as its neighbours"};
   return {offset,
           fmt::format("'{}' behind a value", Shorten(line.text.substr(offset - line.begin), 20)),
-          "the end of the line (a text that starts with a quote ends with it)"};
+          "the end of the line (a value ends with its closing quote or bracket)"};
 }
 
 }  // namespace
@@ -135,6 +144,12 @@ YamlSyntaxError ExplainYamlError(std::string_view text,
     return {offset,
             "a backslash that starts no known escape",
             "'\\\\' for a backslash in double quotes, or single quotes"};
+  if (says("EOF in scalar"))
+    return {offset, "the end of the file within quotes", "a closing quote (is one unpaired?)"};
+  if (says("block scalar"))
+    return {offset,
+            "this behind a '|' or '>'",
+            "the end of the line, and the text indented on the lines below"};
   if (says("anchor") || says("alias"))
     return {offset, "an anchor or alias ('&' or '*')", "plain values (repeat the value instead)"};
   return {offset,

@@ -5,6 +5,8 @@
 
 #include "testing/decimal_comma.h"
 #include "testing/input_error_text.h"
+#include "testing/random.h"
+#include "testing/temporary_folder.h"
 
 namespace hexcal {
 namespace {
@@ -116,13 +118,18 @@ TEST(StrictYaml, RefusesDuplicateKeysAtTheSecondPlace) {
 }
 
 TEST(StrictYaml, RefusesKeysThatAreNotWords) {
-  const std::string expected = ", expected 'key: value' with a plain key, and every bracket closed";
-  const std::string open = "' that is not closed, or a list or mapping as key" + expected;
+  const std::string open =
+      "' that is not closed, or wrong as key or entries, expected plain keys, ',' between entries "
+      "and every bracket closed";
   EXPECT_EQ(ParseError("? [1, 2]\n: x\n"), "f.yaml:1:3: found a '[" + open);
   EXPECT_EQ(ParseError("? {a: 1}\n: x\n"), "f.yaml:1:3: found a '{" + open);
-  EXPECT_EQ(ParseError("? - a\n: x\n"), "f.yaml:1:3: found a key that is not a word" + expected);
-  EXPECT_EQ(ParseError("~: x\n"), "f.yaml:1:1: found a key that is not a word" + expected);
+  EXPECT_EQ(ParseError("a: {b: 1, {c: 2}}\n"), "f.yaml:1:11: found a '{" + open);
+  EXPECT_EQ(ParseError("a: {b: 1,, c: 2}\n"), "f.yaml:1:4: found a '{" + open);
   EXPECT_EQ(ParseError(std::string(1000000, '[')), "f.yaml:1:1: found a '[" + open);
+  const std::string plain =
+      "found a key that is not a word, expected 'key: value' with a plain key";
+  EXPECT_EQ(ParseError("? - a\n: x\n"), "f.yaml:1:3: " + plain);
+  EXPECT_EQ(ParseError("~: x\n"), "f.yaml:1:1: " + plain);
 }
 
 TEST(StrictYaml, RefusesASecondDocumentAndAnEmptyOne) {
@@ -229,9 +236,22 @@ TEST(StrictYaml, ExplainsSyntaxErrors) {
        "as "
        "its neighbours"},
       {"a: \"b\" c\n",
-       "1:8: found 'c' behind a value, expected the end of the line (a text that starts with a "
-       "quote "
-       "ends with it)"},
+       "1:8: found 'c' behind a value, expected the end of the line (a value ends with its closing "
+       "quote or bracket)"},
+      {"a: [1, 2], [3]\n",
+       "1:10: found ', [3]' behind a value, expected the end of the line (a value ends with its "
+       "closing quote or bracket)"},
+      {"a: {x: 1 y: 2}\n",
+       "1:4: found a '{' that is not followed by a list of items and '}', expected ',' between the "
+       "items and '}' after the last"},
+      {"units {length: mm, angle: deg}\n",
+       "1:7: found a '{' without ':' before it, expected 'key: {...}'"},
+      {"m:\n  k: [1]\n  home [0, 1]\nb: 1\n",
+       "3:3: found 'home [0, 1]' without ':', expected 'key: value'"},
+      {"a: | text\n  more\n",
+       "1:6: found this behind a '|' or '>', expected the end of the line, and the text indented "
+       "on "
+       "the lines below"},
       {"a: @x\n", "1:4: found a value that starts with '@', expected such a value in quotes"},
       {"a: %x\n", "1:4: found a value that starts with '%', expected such a value in quotes"},
       {"a: - 1\n",
@@ -249,6 +269,32 @@ TEST(StrictYaml, ExplainsSyntaxErrors) {
     EXPECT_EQ(ParseError(c.text), std::string("f.yaml:") + c.message) << c.text;
 }
 
+// Whatever the damage, the text is read or refused with the file's name in front.
+TEST(StrictYaml, DamagedTextIsReadOrRefused) {
+  const std::string text =
+      "# c\nformat: hexcal/dataset/1\nname: 'n-60'\nunits: {length: mm, angle: deg}\n"
+      "hexapod:\n  base_joints: [[1, 2, 3], [4, 5.5, -6e-3]]\n  home: [0, 0, 1]\ntext: |\n  some\n"
+      "robot_poses:\n  rows:\n    - [pose, x]\n    - [\"1\", ~]\n    -\n  noise: {position: 0.1}\n";
+  const std::string_view bytes("\n \t:,-[]{}#&*!|>'\"%@`?~a1\\\r\0\x80\xC3\xA9", 31);
+  std::mt19937_64 rng = testing::SeededByTest();
+  int read = 0, refused = 0;
+  for (int i = 0; i < 5000; ++i) {
+    std::string damaged = text;
+    for (int j = 0; j <= i % 3; ++j) {
+      const std::size_t at = rng() % damaged.size();
+      if (rng() % 3 == 0)
+        damaged.erase(at, 1 + rng() % 4);
+      else
+        damaged.insert(at, 1, bytes[rng() % bytes.size()]);
+    }
+    const std::string error = ParseError(damaged);
+    ++(error == "(no exception)" ? read : refused);
+    ASSERT_TRUE(error == "(no exception)" || error.rfind("f.yaml", 0) == 0) << damaged;
+  }
+  EXPECT_GT(read, 500);
+  EXPECT_GT(refused, 500);
+}
+
 TEST(StrictYaml, QuotesThatAreClosedAreRead) {
   EXPECT_EQ(Value(Parse("a: 'it''s'\n"), 0).scalar, "it's");
   EXPECT_EQ(Value(Parse("a: \"a \\\"b\\\" \\\\\"\n"), 0).scalar, "a \"b\" \\");
@@ -257,6 +303,13 @@ TEST(StrictYaml, QuotesThatAreClosedAreRead) {
 }
 
 TEST(StrictYaml, NamesFilesThatCannotBeRead) {
+  const testing::TemporaryFolder folder;
+  const std::string large = folder.Write("large.yaml", "a: 1\n");
+  std::filesystem::resize_file(large, (256u << 20) + 1);  // sparse
+  EXPECT_EQ(InputErrorText([&] { ParseYamlFile(large); }),
+            large + ": found a file that is too large, expected at most 256 MiB");
+  const std::string good = folder.Write("good.yaml", "a: 1\n");
+  EXPECT_EQ(ParseYamlFile(good).where.ToString(), good + ":1:1");
   EXPECT_EQ(InputErrorText([] { ParseYamlFile("no/such/file.yaml"); }),
             "no/such/file.yaml: found no file, expected a file that can be read");
   EXPECT_EQ(InputErrorText([] { ParseYamlFile("."); }),
