@@ -96,13 +96,10 @@ class TreeBuilder : public YAML::EventHandler {
   }
   void OnDocumentEnd() override {}
 
-  void OnAnchor(const YAML::Mark& mark, const std::string& /*name*/) override {
-    RefuseAnchor(mark);
-  }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t /*anchor*/) override { RefuseAnchor(mark); }
 
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    Check(mark, "", anchor);
+    RefuseAnchorAndTag(mark, anchor);
     YamlNode node = NewNode(YamlNode::Kind::kNull, mark);
     node.where = NullLocation(mark);
     Add(std::move(node));
@@ -112,7 +109,7 @@ class TreeBuilder : public YAML::EventHandler {
                 const std::string& tag,
                 YAML::anchor_t anchor,
                 const std::string& value) override {
-    Check(mark, tag, anchor);
+    RefuseAnchorAndTag(mark, anchor);
     YamlNode node = NewNode(YamlNode::Kind::kScalar, mark);
     node.quoted = tag == "!";
     node.scalar = value;
@@ -125,16 +122,16 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   void OnSequenceStart(const YAML::Mark& mark,
-                       const std::string& tag,
+                       const std::string& /*tag*/,
                        YAML::anchor_t anchor,
                        YAML::EmitterStyle::value /*style*/) override {
-    Open(YamlNode::Kind::kSequence, mark, tag, anchor);
+    Open(YamlNode::Kind::kSequence, mark, anchor);
   }
   void OnMapStart(const YAML::Mark& mark,
-                  const std::string& tag,
+                  const std::string& /*tag*/,
                   YAML::anchor_t anchor,
                   YAML::EmitterStyle::value /*style*/) override {
-    Open(YamlNode::Kind::kMap, mark, tag, anchor);
+    Open(YamlNode::Kind::kMap, mark, anchor);
   }
   void OnSequenceEnd() override { Close(); }
   void OnMapEnd() override { Close(); }
@@ -154,11 +151,11 @@ class TreeBuilder : public YAML::EventHandler {
                      "plain values (repeat the value, or put a text that starts so in quotes)");
   }
 
-  void Check(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
+  // Both stand before the node, so that its mark is theirs.
+  void RefuseAnchorAndTag(const YAML::Mark& mark, YAML::anchor_t anchor) {
     if (anchor != 0) RefuseAnchor(mark);
     const std::size_t offset = places_.Offset(mark);
-    const bool bang = offset < text_.size() && text_[offset] == '!';
-    if (bang || !(tag.empty() || tag == "?" || tag == "!"))
+    if (offset < text_.size() && text_[offset] == '!')
       throw InputError(places_.At(mark),
                        "a tag ('!')",
                        "plain values (put a text that starts with '!' in quotes)");
@@ -189,11 +186,8 @@ class TreeBuilder : public YAML::EventHandler {
     return here ? at : places_.AtOffset(last);
   }
 
-  void Open(YamlNode::Kind kind,
-            const YAML::Mark& mark,
-            const std::string& tag,
-            YAML::anchor_t anchor) {
-    Check(mark, tag, anchor);
+  void Open(YamlNode::Kind kind, const YAML::Mark& mark, YAML::anchor_t anchor) {
+    RefuseAnchorAndTag(mark, anchor);
     if (static_cast<int>(open_.size()) >= limits_.depth)
       throw InputError(places_.At(mark),
                        fmt::format("nesting deeper than {}", limits_.depth),

@@ -63,6 +63,10 @@ TEST(StrictYaml, ColumnsCountCharacters) {
   EXPECT_EQ(Where(Value(map, 0)), "f.yaml:1:10");
   EXPECT_EQ(Where(Value(map, 1).items[1]), "f.yaml:1:20");
   EXPECT_EQ(Where(Value(root, 1)), "f.yaml:2:4");
+  // The parser goes back in the line for the value that is missing here.
+  const YamlNode alone = Parse("? \xC3\xA9 # x\n");
+  EXPECT_EQ(Where(alone.entries[0].first), "f.yaml:1:3");
+  EXPECT_EQ(Where(Value(alone, 0)), "f.yaml:1:1");
 }
 
 TEST(StrictYaml, TakesByteOrderMarkAndCrlf) {
@@ -103,6 +107,10 @@ TEST(StrictYaml, RefusesAnchorsAliasesAndTags) {
   EXPECT_EQ(ParseError("a: ! 12\n"), "f.yaml:1:4: " + tag);
   EXPECT_EQ(ParseError("a: !!null\nb: 1\n"), "f.yaml:1:4: " + tag);
   EXPECT_EQ(ParseError("a: !!map {}\n"), "f.yaml:1:4: " + tag);
+  for (const char* text : {"!t a: 1\n", "!t [1]\n", "!t\na: 1\n", "!t 'a'\n", "!<x> 1\n"})
+    EXPECT_EQ(ParseError(text), "f.yaml:1:1: " + tag) << text;
+  for (const char* text : {"&t a: 1\n", "&t [1]\n", "&t\na: 1\n", "&t 'a'\n", "&t !x 1\n"})
+    EXPECT_EQ(ParseError(text).rfind("f.yaml:1:1: " + anchor, 0), 0u) << text;
   EXPECT_EQ(ParseError("a: !mine [1]\n"), "f.yaml:1:4: " + tag);
   EXPECT_EQ(Value(Parse("a: '!x'\n"), 0).scalar, "!x");
 }
