@@ -9,6 +9,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "geometry/align_points.h"
+
 namespace hexcal {
 namespace {
 
@@ -130,6 +132,15 @@ std::string DescribeMisfit(const LegLengths& misfit) {
   return text;
 }
 
+// Axes of the platform parallel to those of the base, unless turning it brings its joints clearly
+// nearer to theirs of the base: frames of the two plates need not agree. Shapes: centred joints.
+Eigen::Matrix3d LevelRotation(const Matrix36d& base, const Matrix36d& platform) {
+  const Eigen::Matrix3d correlation = base * platform.transpose();
+  const Eigen::Matrix3d nearest = NearestRotation(correlation);
+  const double gain = nearest.cwiseProduct(correlation).sum() - correlation.trace();
+  return gain > 0.25 * base.norm() * platform.norm() ? nearest : Eigen::Matrix3d::Identity();
+}
+
 }  // namespace
 
 LegLengths InverseKinematics(const HexapodGeometry& hexapod, const Pose3d& base_from_platform) {
@@ -151,15 +162,16 @@ Pose3d NeutralPose(const HexapodGeometry& hexapod, const LegLengths& lengths) {
   if (hexapod.home) return *hexapod.home;
   const Eigen::Vector3d base_centre = hexapod.base_joints_in_base.rowwise().mean();
   const Eigen::Vector3d platform_centre = hexapod.platform_joints_in_platform.rowwise().mean();
-  const Matrix36d offsets = (hexapod.platform_joints_in_platform.colwise() - platform_centre) -
-                            (hexapod.base_joints_in_base.colwise() - base_centre);
+  const Matrix36d base = hexapod.base_joints_in_base.colwise() - base_centre;
+  const Matrix36d platform = hexapod.platform_joints_in_platform.colwise() - platform_centre;
+  const Eigen::Matrix3d rotation = LevelRotation(base, platform);
   // Offsets sum to zero, so the mean squared length at height h is theirs plus h^2.
+  const Matrix36d offsets = rotation * platform - base;
   const double height_squared = (lengths.squaredNorm() - offsets.squaredNorm()) / kNumLegs;
   const double low = 0.1 * lengths.cwiseAbs().mean();
   const double height = height_squared > low * low ? std::sqrt(height_squared) : low;
-  Pose3d neutral;
-  neutral.translation = base_centre - platform_centre + height * Eigen::Vector3d::UnitZ();
-  return neutral;
+  return MakePose(rotation,
+                  base_centre - rotation * platform_centre + height * Eigen::Vector3d::UnitZ());
 }
 
 ForwardKinematicsResult ForwardKinematics(const HexapodGeometry& hexapod,

@@ -20,7 +20,9 @@ Matrix6d LegJacobian(const HexapodGeometry& hexapod, const Pose3d& base_from_pla
 
 // Where forward kinematics starts when nobody says better: home, else the platform held level over
 // the centroid of the base joints, on the side of +z of frame B, at the height at which the mean
-// squared leg length is right. Legs too short for any height: a tenth of their mean.
+// squared leg length is right. Legs too short for any height: a tenth of their mean. Level means
+// with parallel frames, or, where these disagree, with each joint as near above its partner as can
+// be.
 Pose3d NeutralPose(const HexapodGeometry& hexapod, const LegLengths& lengths);
 
 struct ForwardKinematicsResult {

@@ -123,6 +123,24 @@ TEST(NeutralPose, OfLegsShorterThanTheRadiiIsLow) {
   EXPECT_TRUE(MatrixNear(neutral.translation, Eigen::Vector3d(0, 0, 0.025 + 0.02 + 0.005), 1e-15));
 }
 
+TEST(NeutralPose, OfAPlatformWithOtherAxesHasItsJointsOverTheirPartners) {
+  const HexapodGeometry hexapod = testing::SmallHexapod();
+  const LegLengths lengths = InverseKinematics(hexapod, Level(0, 0, 0.2));
+  for (const Eigen::Vector3d& turn : {Eigen::Vector3d(0, 0, 2 * M_PI / 3),
+                                      Eigen::Vector3d(0, 0, M_PI),
+                                      Eigen::Vector3d(M_PI, 0, 0),
+                                      Eigen::Vector3d(M_PI / 2, 0, 0)}) {
+    const Pose3d platform_from_other = {Eigen::Vector3d(0.01, 0.02, 0.03), Exp(turn)};
+    HexapodGeometry other = hexapod;
+    for (int i = 0; i < kNumLegs; ++i) {
+      const Eigen::Vector3d joint = hexapod.platform_joints_in_platform.col(i);
+      other.platform_joints_in_platform.col(i) = platform_from_other.Inverse() * joint;
+    }
+    const Pose3d neutral = NeutralPose(other, lengths);
+    EXPECT_TRUE(PoseNear(neutral, Level(0, 0, 0.2) * platform_from_other, 1e-8, 1e-8));
+  }
+}
+
 struct Robot {
   HexapodGeometry hexapod;
   double height;
