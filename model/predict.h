@@ -10,8 +10,8 @@
 namespace hexcal {
 
 // base_from_platform of every row of robot_poses, as reported: the recorded pose, or forward
-// kinematics of the recorded leg lengths, each row started from the one before. InputError with
-// file and line where legs reach no pose or there is no hexapod.
+// kinematics of the recorded leg lengths, started from the neutral pose and, should that fail, from
+// the row before. InputError with file and line where legs reach no pose or there is no hexapod.
 std::vector<Pose3d> ReportedPoses(const Dataset& dataset);
 
 // As above, with another hexapod than the dataset's (a calibrated one).

@@ -14,10 +14,19 @@ struct SimulateOptions {
 };
 
 // What the tracker would see of the dataset's robot poses if the machine were the truth: the
-// dataset with its measurement replaced. Markers (rigid bodies only) get the dataset's marker sigma
-// along the tracker's axes, tracker.frames times a pose; measured poses get measurement.noise in
-// frame T; robot_poses.noise moves the true platform away from the reported pose. InputError where
-// the dataset lacks what this needs.
+// dataset with its measurement replaced, every marker seen in every pose.
+//
+// Markers (rigid bodies only) get the dataset's marker sigma along the tracker's axes,
+// tracker.frames times a pose; measured poses get measurement.noise in frame T. robot_poses.noise
+// moves the true platform away from the reported pose: in frame A, or by its leg lengths. A noise
+// that is not stated is zero. The tracker stands at the dataset's tracker.pose, else at the
+// machine's world_from_tracker, else in W. Leg lengths become poses by the machine's hexapod where
+// it has one, else by the dataset's.
+//
+// A pose's draws depend on the seed and its label alone: six of the robot, then x, y, z of each
+// marker (frame by frame, base before tool) or six of the measured pose. So any subset of the poses
+// gets the same noise, and a factor on the noise scales it. InputError where the dataset lacks what
+// this needs.
 Dataset Simulate(const Dataset& dataset, const Machine& machine, const SimulateOptions& options);
 
 }  // namespace hexcal
