@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -57,7 +56,7 @@ class MapReader {
   // what: the mapping in words, for messages ("the dataset", "measurement").
   MapReader(const YamlNode& node,
             std::string_view what,
-            std::initializer_list<std::string_view> known_keys);
+            const std::vector<std::string_view>& known_keys);
 
   const YamlNode& Required(std::string_view key) const;  // InputError if missing
   const YamlNode* Optional(std::string_view key) const;  // nullptr if missing

@@ -98,9 +98,8 @@ std::vector<double> ReadNumbers(const YamlNode& node, std::size_t size, std::str
 
 MapReader::MapReader(const YamlNode& node,
                      std::string_view what,
-                     std::initializer_list<std::string_view> known_keys)
+                     const std::vector<std::string_view>& known)
     : node_(&node), what_(what) {
-  const std::vector<std::string_view> known(known_keys);
   if (node.kind != YamlNode::Kind::kMap)
     Refuse(node,
            fmt::format("{} as a mapping of 'key: value'", what),

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/flag_value.h"
+
+#include <fmt/format.h>
+#include <gflags/gflags.h>
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "config/number.h"
+
+namespace hexcal {
+namespace {
+
+gflags::CommandLineFlagInfo Info(const FlagSpec& spec) {
+  gflags::CommandLineFlagInfo info;
+  CHECK(gflags::GetCommandLineFlagInfo(std::string(spec.name).c_str(), &info)) << spec.name;
+  return info;
+}
+
+bool IsWholeNumber(const FlagSpec& spec) {
+  const std::string type = Info(spec).type;
+  return type == "int32" || type == "int64";
+}
+
+bool InRange(const FlagSpec& spec, double value) {
+  if (spec.low_excluded && value == spec.low) return false;
+  return value >= spec.low && value <= spec.high;  // false for nan
+}
+
+// The value as gflags will read it back to the same bits, or nothing.
+std::optional<std::string> Canonical(const FlagSpec& spec, std::string_view text) {
+  if (IsSwitch(spec)) {
+    if (text != "true" && text != "false") return std::nullopt;
+    return std::string(text);
+  }
+  if (IsWholeNumber(spec)) {
+    const std::optional<long> value = ParseInteger(text);
+    if (!value || !InRange(spec, static_cast<double>(*value))) return std::nullopt;
+    return fmt::format("{}", *value);
+  }
+  if (IsNumber(spec)) {
+    const std::optional<double> value = ParseDouble(text);
+    if (!value || !std::isfinite(*value) || !InRange(spec, *value)) return std::nullopt;
+    return fmt::format("{}", *value);
+  }
+  const bool free = spec.choices.empty();
+  const bool listed =
+      std::find(spec.choices.begin(), spec.choices.end(), text) != spec.choices.end();
+  if (free ? text.empty() : !listed) return std::nullopt;
+  return std::string(text);
+}
+
+std::string JoinChoices(const std::vector<std::string_view>& choices) {
+  std::string text(choices.front());
+  for (std::size_t i = 1; i < choices.size(); ++i)
+    text += fmt::format("{}{}", i + 1 == choices.size() ? " or " : ", ", choices[i]);
+  return text;
+}
+
+}  // namespace
+
+bool IsSwitch(const FlagSpec& spec) { return Info(spec).type == "bool"; }
+
+bool IsNumber(const FlagSpec& spec) { return IsWholeNumber(spec) || Info(spec).type == "double"; }
+
+bool WasGiven(const FlagSpec& spec) { return !Info(spec).is_default; }
+
+std::string CurrentText(const FlagSpec& spec) { return Info(spec).current_value; }
+
+std::string DefaultText(const FlagSpec& spec) {
+  if (!spec.default_text.empty()) return std::string(spec.default_text);
+  const std::string text = Info(spec).default_value;
+  if (IsSwitch(spec)) return "";
+  if (!IsNumber(spec)) return text;
+  return IsWholeNumber(spec) ? text : fmt::format("{}", ParseDouble(text).value_or(0.0));
+}
+
+std::string ExpectedText(const FlagSpec& spec) {
+  if (IsSwitch(spec)) return "true or false";
+  if (!spec.choices.empty()) return JoinChoices(spec.choices);
+  if (!IsNumber(spec)) return "a path";
+  std::string text = IsWholeNumber(spec) ? "a whole number" : "a number";
+  text += fmt::format(spec.low_excluded ? " above {}" : " from {}", spec.low);
+  if (std::isfinite(spec.high))
+    text += fmt::format(spec.low_excluded ? ", at most {}" : " to {}", spec.high);
+  else
+    text += " on";
+  return text;
+}
+
+std::optional<std::string> SetFlag(const FlagSpec& spec, std::string_view text) {
+  if (std::find(spec.later.begin(), spec.later.end(), text) != spec.later.end())
+    return fmt::format("{} ('{}' is not in this version)", ExpectedText(spec), text);
+  const std::optional<std::string> value = Canonical(spec, text);
+  if (!value) return ExpectedText(spec);
+  const std::string name(spec.name);
+  CHECK(!gflags::SetCommandLineOption(name.c_str(), value->c_str()).empty()) << name;
+  return std::nullopt;
+}
+
+}  // namespace hexcal

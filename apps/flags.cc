@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/flags.h"
+
+#include <gflags/gflags.h>
+
+#include <algorithm>
+
+DEFINE_string(out, "", "Where the results go.");
+DEFINE_string(model, "", "The calibrated machine, as 'hexcal calibrate' writes it.");
+DEFINE_string(config,
+              "",
+              "Settings in a YAML file: the names of these flags, without dashes, as keys. A flag "
+              "on the command line wins.");
+DEFINE_string(
+    solver,
+    "nonlinear",
+    "How base and tool are found: by the weighted nonlinear problem, or by the linearized "
+    "iteration of the paper.");
+DEFINE_string(residual,
+              "pose",
+              "What is compared with the prediction: the measured poses of the tool.");
+DEFINE_string(start,
+              "",
+              "Where the solver starts: the best closed form, the dataset's 'initial', the "
+              "identity, or one closed form by name.");
+DEFINE_string(error,
+              "paper",
+              "What the iteration makes small: the difference of pose vectors of Eq. (22), or the "
+              "body twist.");
+DEFINE_int32(iterations, 20, "Largest number of iterations.");
+DEFINE_double(tolerance,
+              1e-12,
+              "The iteration has converged when no part of its update is larger, m and rad.");
+DEFINE_double(noise_position,
+              0.0,
+              "One standard deviation of a measured position, each coordinate, where the dataset "
+              "states no noise. Goes with --noise_orientation.");
+DEFINE_double(noise_orientation,
+              0.0,
+              "One standard deviation of a measured orientation, about each axis, where the "
+              "dataset states no noise. Goes with --noise_position.");
+DEFINE_double(noise,
+              1.0,
+              "Factor on every standard deviation that the dataset states; 0: no noise.");
+DEFINE_int64(seed, 1, "The same seed draws the same noise.");
+DEFINE_int32(threads, 0, "Threads to use. The results do not depend on it.");
+DEFINE_bool(json, false, "Print the results as JSON instead, one object a line.");
+DEFINE_bool(quiet, false, "Print no results and no progress; warnings and errors stay.");
+DEFINE_bool(force, false, "Replace files that hexcal did not write.");
+
+namespace hexcal {
+namespace {
+
+constexpr std::string_view kResults = "Results";
+constexpr std::string_view kMethod = "Method";
+constexpr std::string_view kNoise = "Noise";
+constexpr std::string_view kLinearized = "The linearized solver";
+constexpr std::string_view kRunning = "Running";
+
+std::vector<FlagSpec> MakeSpecs() {
+  std::vector<FlagSpec> specs = {
+      {"out", kResults, "PATH", ""},
+      {"json", kResults, "", ""},
+      {"quiet", kResults, "", ""},
+      {"force", kResults, "", ""},
+      {"model", kMethod, "FILE", ""},
+      {"solver", kMethod, "", "", {"nonlinear", "linearized"}},
+      {"residual", kMethod, "", "", {"pose"}, {"marker"}},
+      {"start",
+       kMethod,
+       "",
+       "closed_form for nonlinear; initial, where the dataset has one, else identity for "
+       "linearized",
+       {"closed_form", "initial", "identity", "shah", "park_martin"}},
+      {"noise_position", kNoise, "M", "estimated", {}, {}, 0.0, 1.0, true, "noise_orientation"},
+      {"noise_orientation", kNoise, "RAD", "estimated", {}, {}, 0.0, 1.0, true, "noise_position"},
+      {"noise", kNoise, "FACTOR", "", {}, {}, 0.0, 1e6},
+      {"seed", kNoise, "N", "", {}, {}, 0.0},
+      {"error", kLinearized, "", "", {"paper", "twist"}},
+      {"iterations", kLinearized, "N", "", {}, {}, 1, 10000},
+      {"tolerance", kLinearized, "STEP", "", {}, {}, 0.0, 1.0, true},
+      {"config", kRunning, "FILE.yaml", ""},
+      {"threads", kRunning, "N", "all cores", {}, {}, 1, 1024},
+  };
+  for (FlagSpec& spec : specs) {
+    if (spec.group != kLinearized) continue;
+    spec.only_with_flag = "solver";
+    spec.only_with_value = "linearized";
+  }
+  return specs;
+}
+
+}  // namespace
+
+const std::vector<FlagSpec>& FlagSpecs() {
+  static const std::vector<FlagSpec> specs = MakeSpecs();
+  return specs;
+}
+
+const FlagSpec* FindFlag(std::string_view name) {
+  const std::vector<FlagSpec>& specs = FlagSpecs();
+  const auto found = std::find_if(
+      specs.begin(), specs.end(), [name](const FlagSpec& spec) { return spec.name == name; });
+  return found == specs.end() ? nullptr : &*found;
+}
+
+}  // namespace hexcal

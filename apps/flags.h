@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gflags/gflags_declare.h>
+
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+DECLARE_string(out);
+DECLARE_string(model);
+DECLARE_string(config);
+DECLARE_string(solver);
+DECLARE_string(residual);
+DECLARE_string(start);
+DECLARE_string(error);
+DECLARE_int32(iterations);
+DECLARE_double(tolerance);
+DECLARE_double(noise_position);
+DECLARE_double(noise_orientation);
+DECLARE_double(noise);
+DECLARE_int64(seed);
+DECLARE_int32(threads);
+DECLARE_bool(json);
+DECLARE_bool(quiet);
+DECLARE_bool(force);
+
+namespace hexcal {
+
+// What gflags does not know of a flag: which values it may take and how help shows it. Parsing,
+// help and error messages all read this table; type, default and description come from gflags.
+struct FlagSpec {
+  std::string_view name;
+  std::string_view group;         // the heading in help
+  std::string_view value;         // stands for the value in help; a switch has none
+  std::string_view default_text;  // in words, where gflags' default is not one
+  std::vector<std::string_view> choices = {};
+  std::vector<std::string_view> later = {};  // known values that this version does not have
+  double low = -std::numeric_limits<double>::infinity();  // numbers: the range, both ends allowed
+  double high = std::numeric_limits<double>::infinity();
+  bool low_excluded = false;
+  std::string_view together_with = {};  // the other flag without which this one is wrong usage
+  // Wrong usage on the command line unless that other flag has that value.
+  std::string_view only_with_flag = {};
+  std::string_view only_with_value = {};
+};
+
+const std::vector<FlagSpec>& FlagSpecs();
+const FlagSpec* FindFlag(std::string_view name);  // nullptr: no flag of hexcal
+
+}  // namespace hexcal

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/predict.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iterator>
+
+#include "apps/dataset_files.h"
+#include "apps/exit_status.h"
+#include "apps/flags.h"
+#include "apps/output_folder.h"
+#include "apps/usage_error.h"
+#include "measurement/dataset.h"
+#include "model/machine.h"
+#include "model/predict.h"
+
+namespace hexcal {
+namespace {
+
+// What the robot reported, seen through the hexapod of the model where it has one.
+std::vector<Pose3d> ReportedPoses(const Dataset& dataset, const Machine& machine) {
+  if (dataset.robot_poses.are_leg_lengths && machine.hexapod)
+    return ReportedPoses(dataset.robot_poses, *machine.hexapod);
+  return ReportedPoses(dataset);
+}
+
+std::string PredictionTable(const Dataset& dataset, const std::vector<Pose3d>& world_from_tool) {
+  std::string table(kPredictionMark);
+  for (std::size_t i = 0; i < world_from_tool.size(); ++i) {
+    const Eigen::Vector3d& t = world_from_tool[i].translation;
+    const Eigen::Quaterniond& q = world_from_tool[i].rotation;
+    fmt::format_to(std::back_inserter(table),
+                   "{},{},{},{},{},{},{},{}\n",
+                   dataset.robot_poses.rows[i].label,
+                   t.x(),
+                   t.y(),
+                   t.z(),
+                   q.w(),
+                   q.x(),
+                   q.y(),
+                   q.z());
+  }
+  return table;
+}
+
+}  // namespace
+
+int RunPredict(const std::vector<std::string>& files) {
+  const std::filesystem::path out = FLAGS_out;
+  if (!out.has_filename())
+    throw UsageError(
+        fmt::format("predict: --out: found the folder '{}', expected a file", FLAGS_out));
+  const Dataset dataset = OpenDataset(files[0], false);
+  const Machine machine = ReadMachine(FLAGS_model);
+  OutputFolder folder(out.has_parent_path() ? out.parent_path().string() : ".",
+                      "",
+                      {{out.filename().string(), std::string(kPredictionMark)}},
+                      InputFiles(dataset, FLAGS_model),
+                      FLAGS_force);
+  const std::vector<Pose3d> world_from_tool =
+      PredictToolPoses(machine, ReportedPoses(dataset, machine));
+  folder.Write(out.filename().string(), PredictionTable(dataset, world_from_tool));
+  if (!FLAGS_quiet) fmt::print("{}: {} poses predicted\n", FLAGS_out, world_from_tool.size());
+  return kDone;
+}
+
+}  // namespace hexcal

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/simulate.h"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <utility>
+
+#include "apps/dataset_files.h"
+#include "apps/exit_status.h"
+#include "apps/flags.h"
+#include "apps/output_folder.h"
+#include "measurement/dataset.h"
+#include "measurement/dataset_writer.h"
+#include "model/machine.h"
+#include "model/simulate.h"
+
+namespace hexcal {
+namespace {
+
+// The first is the file that names the others.
+const std::vector<OutputFile>& DatasetFiles() {
+  static const std::vector<OutputFile> files = {{"dataset.yaml", std::string(kSimulatedMark)},
+                                                {"poses.csv", ""},
+                                                {"measured.csv", ""},
+                                                {"markers.csv", ""}};
+  return files;
+}
+
+SimulateOptions OptionsFromFlags() {
+  SimulateOptions options;
+  options.seed = static_cast<std::uint64_t>(FLAGS_seed);
+  options.noise = FLAGS_noise;
+  return options;
+}
+
+}  // namespace
+
+int RunSimulate(const std::vector<std::string>& files) {
+  const Dataset dataset = OpenDataset(files[0], false);
+  const Machine machine = ReadMachine(FLAGS_model);
+  OutputFolder folder(
+      FLAGS_out, dataset.name, DatasetFiles(), InputFiles(dataset, FLAGS_model), FLAGS_force);
+  const Dataset simulated = Simulate(dataset, machine, OptionsFromFlags());
+  // Tables first: the file that names them comes when they are there.
+  const std::string* description = nullptr;
+  const std::vector<std::pair<std::string, std::string>> contents = WriteDataset(simulated);
+  for (const auto& [name, content] : contents) {
+    if (name == DatasetFiles().front().name)
+      description = &content;
+    else
+      folder.Write(name, content);
+  }
+  folder.Write(
+      DatasetFiles().front().name,
+      fmt::format(
+          "{} --seed={} --noise={}\n{}", kSimulatedMark, FLAGS_seed, FLAGS_noise, *description));
+  if (!FLAGS_quiet)
+    fmt::print("{}: {} poses simulated\n",
+               folder.PathOf(DatasetFiles().front().name),
+               simulated.robot_poses.rows.size());
+  return kDone;
+}
+
+}  // namespace hexcal
