@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
+
 #include "geometry/rotation_angles.h"
 #include "measurement/checked_values.h"
 
@@ -50,15 +52,19 @@ Eigen::Vector2d ReadLegLimits(const YamlNode& node, const Units& units) {
   return units.length * Eigen::Vector2d(limits[0], limits[1]);
 }
 
-// Six numbers of Eq. (2); or a pose in full, which is how a home that six numbers cannot give to
+// Six numbers of Eq. (2); or a pose in full, which is how a home that six numbers do not give to
 // the last bit is written.
-Pose3d ReadHome(const YamlNode& node, const Units& units) {
-  if (node.kind == YamlNode::Kind::kMap) return ReadPose(node, units, "home");
+void ReadHome(const YamlNode& node, const Units& units, HexapodGeometry& geometry) {
+  if (node.kind == YamlNode::Kind::kMap) {
+    geometry.home = ReadPose(node, units, "home");
+    return;
+  }
   const std::vector<double> v = ReadNumbers(node, 6, "home [x, y, z, rx, ry, rz]");
   Vector6d pose_vector;
   pose_vector << units.length * Eigen::Vector3d(v[0], v[1], v[2]),
       units.angle * Eigen::Vector3d(v[3], v[4], v[5]);
-  return PoseFromVector(pose_vector);
+  geometry.home_vector = pose_vector;
+  geometry.home = PoseFromVector(pose_vector);
 }
 
 void RefuseEqualLegs(const HexapodGeometry& g, const Location& where) {
@@ -84,11 +90,18 @@ std::string WriteSix(const Matrix36d& columns, std::string_view key, const std::
   return text;
 }
 
-std::string WriteHome(const Pose3d& home) {
-  const Vector6d pose_vector = VectorFromPose(home);
+bool SameBits(const double* a, const double* b, int size) {
+  return std::memcmp(a, b, size * sizeof(double)) == 0;
+}
+
+std::string WriteHome(const HexapodGeometry& geometry) {
+  const Pose3d& home = *geometry.home;
+  const Vector6d pose_vector =
+      geometry.home_vector.value_or(VectorFromPose(home).array() + 0.0);  // -0 becomes 0
   const Pose3d read_back = PoseFromVector(pose_vector);
-  const bool is_exact = read_back.translation == home.translation &&
-                        read_back.rotation.coeffs() == home.rotation.coeffs();
+  const bool is_exact =
+      SameBits(read_back.translation.data(), home.translation.data(), 3) &&
+      SameBits(read_back.rotation.coeffs().data(), home.rotation.coeffs().data(), 4);
   return is_exact ? Numbers(pose_vector.data(), 6) : WritePose(home);
 }
 
@@ -108,7 +121,7 @@ HexapodGeometry ReadHexapodGeometry(const YamlNode& node, const Units& units) {
   geometry.platform_axes_in_platform = ReadAxes(map.Optional("platform_axes"), "platform_axes");
   if (const YamlNode* limits = map.Optional("leg_limits"))
     geometry.leg_limits = ReadLegLimits(*limits, units);
-  if (const YamlNode* home = map.Optional("home")) geometry.home = ReadHome(*home, units);
+  if (const YamlNode* home = map.Optional("home")) ReadHome(*home, units, geometry);
   return geometry;
 }
 
@@ -121,7 +134,7 @@ std::string WriteHexapodGeometry(const HexapodGeometry& geometry, const std::str
     text += WriteSix(*geometry.platform_axes_in_platform, "platform_axes", indent);
   if (geometry.leg_limits)
     text += fmt::format("{}leg_limits: {}\n", indent, Numbers(geometry.leg_limits->data(), 2));
-  if (geometry.home) text += fmt::format("{}home: {}\n", indent, WriteHome(*geometry.home));
+  if (geometry.home) text += fmt::format("{}home: {}\n", indent, WriteHome(geometry));
   return text;
 }
 

@@ -23,6 +23,9 @@ struct HexapodGeometry {
   std::optional<Matrix36d> platform_axes_in_platform;  // likewise
   std::optional<Eigen::Vector2d> leg_limits;           // min, max, m
   std::optional<Pose3d> home;                          // centre of the travel, base_from_platform
+  // home as six numbers of Eq. (2), m and rad, where a file gave it so: angles found from a pose
+  // seldom give the pose to the last bit, these do.
+  std::optional<Vector6d> home_vector;
 };
 
 // The mapping under the key hexapod:, its numbers in the given units. InputError for joints that
