@@ -25,7 +25,7 @@ bool HasUnusualByte(std::string_view text) {
 LineReader::LineReader(const std::string& path, std::int64_t max_bytes)
     : name_(std::make_shared<const std::string>(path)), file_(path, max_bytes) {}
 
-Location LineReader::where(int column) const {
+Location LineReader::Where(int column) const {
   constexpr std::int64_t kLast = std::numeric_limits<int>::max();
   return {name_, static_cast<int>(std::min(number_, kLast)), column};
 }
@@ -34,7 +34,7 @@ Location LineReader::where(int column) const {
 bool LineReader::Fill() {
   if (end_ - begin_ > kLongestLine) {
     ++number_;
-    throw InputError(where(), "a line longer than 1 MiB", "a line for each row");
+    throw InputError(Where(), "a line longer than 1 MiB", "a line for each row");
   }
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
@@ -51,7 +51,7 @@ void LineReader::TakeLine(std::size_t end) {
   if (++number_ == 1 && line_.substr(0, kByteOrderMark.size()) == kByteOrderMark)
     line_.remove_prefix(kByteOrderMark.size());
   if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
-  if (HasUnusualByte(line_)) RefuseBadText(line_, where(1));
+  if (HasUnusualByte(line_)) RefuseBadText(line_, Where(1));
 }
 
 bool LineReader::Next() {

@@ -19,10 +19,10 @@ class LineReader {
   // Moves to the next line; false at the end.
   bool Next();
   // Without its line end; valid until Next().
-  std::string_view line() const { return line_; }
+  std::string_view Line() const { return line_; }
   // column counts from 1; 0 means the whole line.
-  Location where(int column = 0) const;
-  Location file() const { return {name_, 0, 0}; }
+  Location Where(int column = 0) const;
+  Location File() const { return {name_, 0, 0}; }
 
  private:
   bool Fill();

@@ -76,7 +76,7 @@ class TreeBuilder : public YAML::EventHandler {
   TreeBuilder(std::string_view text, Places& places, const YamlLimits& limits)
       : text_(text), places_(places), limits_(limits) {}
 
-  YamlNode& root() { return root_; }
+  YamlNode& Root() { return root_; }
 
   std::size_t OpenBracket() const {
     for (auto frame = open_.rbegin(); frame != open_.rend(); ++frame)
@@ -174,7 +174,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   // The parser reports a missing value at whatever comes next: say where it is missing instead.
   Location NullLocation(const YAML::Mark& mark) {
-    const Location at = places_.At(mark);
+    Location at = places_.At(mark);
     if (open_.empty()) return at;
     const Frame& frame = open_.back();
     if (frame.key && at.line != frame.key->where.line) return frame.key->where;
@@ -281,9 +281,9 @@ YamlNode ParseYamlText(std::string_view text,
         ExplainYamlError(text, places.Offset(error.mark), error.msg, builder.OpenBracket());
     throw InputError(places.AtOffset(problem.offset), problem.found, problem.expected);
   }
-  if (builder.root().kind == YamlNode::Kind::kNull)
+  if (builder.Root().kind == YamlNode::Kind::kNull)
     throw InputError(places.File(), "an empty document", "'key: value' lines");
-  return std::move(builder.root());
+  return std::move(builder.Root());
 }
 
 YamlNode ParseYamlFile(const std::string& path, const YamlLimits& limits) {

@@ -94,8 +94,8 @@ struct CsvTable : TableReader::Impl {
   bool Advance() override {
     do {
       if (!lines.Next()) return false;
-    } while (Trim(lines.line()).empty() || Trim(lines.line()).front() == '#');
-    const std::string_view line = lines.line();
+    } while (Trim(lines.Line()).empty() || Trim(lines.Line()).front() == '#');
+    const std::string_view line = lines.Line();
     const std::size_t quote = line.find('"');
     if (quote != std::string_view::npos)
       throw InputError(Place(quote), "a quote character", "cells without quotes or commas in them");
@@ -110,16 +110,16 @@ struct CsvTable : TableReader::Impl {
   }
 
   Location Place(std::size_t offset) const {
-    return lines.where(1 + CountCharacters(lines.line().substr(0, offset)));
+    return lines.Where(1 + CountCharacters(lines.Line().substr(0, offset)));
   }
-  Location Table() const override { return lines.file(); }
-  Location Row() const override { return lines.where(); }
+  Location Table() const override { return lines.File(); }
+  Location Row() const override { return lines.Where(); }
   Location Cell(std::size_t column) const override {
-    return Place(static_cast<std::size_t>(cells[column].data() - lines.line().data()));
+    return Place(static_cast<std::size_t>(cells[column].data() - lines.Line().data()));
   }
 
   std::string_view CountHint() const override {
-    const std::string_view line = lines.line();
+    const std::string_view line = lines.Line();
     if (line.find(';') != std::string_view::npos) return " (columns are separated by ',', not ';')";
     if (line.find('\t') != std::string_view::npos)
       return " (columns are separated by ',', not by tabs)";

@@ -3,11 +3,11 @@
 #include "config/atomic_file.h"
 
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <atomic>
+#include <csignal>
 #include <thread>
 
 #include "config/input_error.h"
@@ -46,7 +46,8 @@ TEST(AtomicFile, WritesAndReplaces) {
   EXPECT_EQ(folder.Read("f"), std::string("a\0b\r\n", 5));
   WriteFileAtomically(path, "");
   EXPECT_EQ(folder.Read("f"), "");
-  const std::string large(30'000'000, 'x');
+  std::string large;
+  large.resize(30'000'000, 'x');
   WriteFileAtomically(path, large);
   EXPECT_TRUE(folder.Read("f") == large);
   EXPECT_EQ(folder.Names(), Names{"f"});
@@ -135,7 +136,8 @@ TEST(AtomicFile, ReadersSeeOneWholeFileOrTheOther) {
   int reads = 0, torn = 0;
   do {
     const std::string seen = folder.Read("f");
-    const bool whole = seen.size() == 100000 && seen.find_first_not_of(seen[0]) == seen.npos;
+    const bool whole =
+        seen.size() == 100000 && seen.find_first_not_of(seen[0]) == std::string::npos;
     torn += whole ? 0 : 1;
     ++reads;
   } while (!done);

@@ -87,7 +87,7 @@ TEST(Number, ReadsWholeNumbers) {
 
 TEST(Number, DoesNotCareForTheLocale) {
   const DecimalComma locale;
-  ASSERT_EQ(locale.Print(1234.5), "1.234,5");  // the locale is in force
+  ASSERT_EQ(DecimalComma::Print(1234.5), "1.234,5");  // the locale is in force
   EXPECT_EQ(ParseDouble("1234.5"), 1234.5);
   EXPECT_EQ(ParseDouble("1234,5"), std::nullopt);
   EXPECT_EQ(ParseInteger("1.234"), std::nullopt);

@@ -326,7 +326,7 @@ TEST(StrictYaml, NamesFilesThatCannotBeRead) {
 
 TEST(StrictYaml, DescribesWhatItFound) {
   const YamlNode root =
-      Parse("[abc, '1', 1.5, [], [1, 2], {}, {a: 1}, {a: 1, b: 2}, ~, \"a\\nb\", nan]");
+      Parse(R"([abc, '1', 1.5, [], [1, 2], {}, {a: 1}, {a: 1, b: 2}, ~, "a\nb", nan])");
   const char* expected[] = {"the text 'abc'",
                             "the text '1'",
                             "the number 1.5",

@@ -16,7 +16,7 @@ class DecimalComma {
   DecimalComma(const DecimalComma&) = delete;
   DecimalComma& operator=(const DecimalComma&) = delete;
 
-  std::string Print(double value) const {
+  static std::string Print(double value) {
     std::ostringstream out;
     out << value;
     return out.str();
