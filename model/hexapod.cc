@@ -62,7 +62,7 @@ class Solver {
 
   // Volume spanned by the legs' screws: it changes sign where the legs lose hold of the platform.
   // A hexapod cannot move through such a pose, so beyond it lies another assembly.
-  double Hold(const State& state) const { return state.jacobian.determinant(); }
+  static double Hold(const State& state) { return state.jacobian.determinant(); }
 
   // Height of the platform's joints over the plane of the base joints, either sign. Flat plates
   // have a mirror image below the base for every pose above it.

@@ -21,7 +21,7 @@ void CheckFormat(const YamlNode& root) {
 }
 
 std::string ReadDatasetName(const YamlNode& node) {
-  const std::string name = ReadText(node, "the name of a dataset");
+  std::string name = ReadText(node, "the name of a dataset");
   const bool has_only_allowed =
       name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-") ==
       std::string::npos;

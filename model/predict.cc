@@ -92,7 +92,7 @@ std::vector<Pose3d> PredictToolPoses(const Machine& machine,
   std::vector<Pose3d> world_from_tool;
   world_from_tool.reserve(base_from_platform.size());
   for (const Pose3d& pose : base_from_platform)
-    world_from_tool.push_back(machine.world_from_base * pose * machine.platform_from_tool);
+    world_from_tool.emplace_back(machine.world_from_base * pose * machine.platform_from_tool);
   return world_from_tool;
 }
 
