@@ -240,6 +240,17 @@ TEST(Dataset, FramesCountInOrderOfFirstAppearance) {
   EXPECT_EQ(frames, (std::vector<int>{0, 0, 1, 1, 1, 2, 0}));
 }
 
+TEST(Dataset, OfSeveralRepeatedReadingsTheFirstInTheTableIsNamed) {
+  const std::string rows = "pose,body,marker,x,y,z\n" + SeenInAllPoses() +
+                           "1.0,base,b1,1,2,3\n1,tool,t1,1,2,3\n1,tool,t1,1,2,3\n";
+  const std::string error =
+      InputErrorText([&] { ReadText(kMetres + kThreePoses + kMarkers, rows); });
+  EXPECT_NE(error.find("markers.csv:8: found marker b1 of the base body in pose '1.0'"),
+            std::string::npos)
+      << error;
+  EXPECT_NE(error.find("(the first is in line 6)"), std::string::npos) << error;
+}
+
 TEST(Dataset, WithAStaticTrackerTheBaseNeedNotBeSeenInEveryPose) {
   const std::string rows =
       "pose,body,marker,x,y,z\n1,base,b1,1,2,3\n1,tool,t1,4,5,6\n01,tool,t1,4,5,6\n"

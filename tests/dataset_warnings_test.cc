@@ -145,6 +145,26 @@ TEST(DatasetWarnings, ARobotThatOnlyTurnsIsNotOdd) {
   EXPECT_TRUE(FindOddities(dataset).empty());
 }
 
+TEST(DatasetWarnings, MarkersThatWereNotSeenAreNoTravel) {
+  // A positioner that moves some micrometres: the centre of a body moves more when a marker is
+  // missing.
+  std::mt19937_64 rng = SeededByTest();
+  Dataset dataset = GoodMarkers(rng);
+  dataset.hexapod.reset();
+  for (RobotPose& pose : dataset.robot_poses.rows)
+    pose.base_from_platform.translation = testing::UniformVector(rng, 1e-5);
+  std::vector<MarkerReading>& readings = dataset.measurement->readings;
+  const std::vector<MarkerReading> first(readings.begin(), readings.begin() + 8);
+  readings.clear();
+  for (int pose = 0; pose < kNumPoses; ++pose)
+    for (MarkerReading reading : first) {
+      reading.pose = pose;
+      reading.p_in_tracker += testing::UniformVector(rng, 1e-5);
+      if (reading.marker != pose % 8) readings.push_back(reading);
+    }
+  EXPECT_TRUE(FindOddities(dataset).empty());
+}
+
 TEST(DatasetWarnings, DegreesUnderRadians) {
   const std::string poses =
       "format: hexcal/dataset/1\nname: d\nunits: {length: m, angle: UNIT}\nrobot_poses:\n"
