@@ -72,7 +72,7 @@ std::string CurrentText(const FlagSpec& spec) { return Info(spec).current_value;
 
 std::string DefaultText(const FlagSpec& spec) {
   if (!spec.default_text.empty()) return std::string(spec.default_text);
-  const std::string text = Info(spec).default_value;
+  std::string text = Info(spec).default_value;
   if (IsSwitch(spec)) return "";
   if (!IsNumber(spec)) return text;
   return IsWholeNumber(spec) ? text : fmt::format("{}", ParseDouble(text).value_or(0.0));

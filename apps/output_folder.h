@@ -15,7 +15,7 @@ struct OutputFile {
 };
 
 // What stands in the first bytes of each kind of file that hexcal writes.
-inline constexpr std::string_view kResultMark = "\"format\": \"hexcal/result/";
+inline constexpr std::string_view kResultMark = R"("format": "hexcal/result/)";
 inline constexpr std::string_view kModelMark = "format: hexcal/model/";
 inline constexpr std::string_view kPredictionMark = "pose,x,y,z,qw,qx,qy,qz\n";
 inline constexpr std::string_view kSimulatedMark = "# Written by hexcal simulate";
