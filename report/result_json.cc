@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/result_json.h"
+
+#include "report/json_text.h"
+
+namespace hexcal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <typename Derived>
+Json List(const Eigen::DenseBase<Derived>& v) {
+  Json list = Json::array();
+  for (Eigen::Index i = 0; i < v.size(); ++i) list.push_back(v(i));
+  return list;
+}
+
+Json PoseObject(const Pose3d& pose) {
+  const Eigen::Matrix4d matrix = pose.Matrix();
+  Json rows = Json::array();
+  for (int i = 0; i < 4; ++i) rows.push_back(List(matrix.row(i)));
+  const Eigen::Quaterniond& q = pose.rotation;
+  return {{"xyz", List(pose.translation)},
+          {"quaternion", {q.w(), q.x(), q.y(), q.z()}},
+          {"matrix", rows}};
+}
+
+Json CovarianceRows(const Matrix12d& covariance, const Observability& observability) {
+  Json rows = Json::array();
+  for (int i = 0; i < 12; ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < 12; ++j)
+      row.push_back(observability.determined[i] && observability.determined[j]
+                        ? Json(covariance(i, j))
+                        : Json());
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+Json StandardDeviations(const Estimate& estimate) {
+  Json list = Json::array();
+  for (int i = 0; i < 12; ++i)
+    list.push_back(estimate.observability.determined[i] ? Json(std::sqrt(estimate.covariance(i, i)))
+                                                        : Json());
+  return list;
+}
+
+Json Iterations(const Estimate& estimate) {
+  Json list = Json::array();
+  for (const IterationRecord& r : estimate.iterations)
+    list.push_back({{"cost", r.cost}, {"rmspe", r.rmspe}, {"rmsoe", r.rmsoe}});
+  return list;
+}
+
+Json Poses(const Estimate& estimate) {
+  Json list = Json::array();
+  for (const PoseResult& p : estimate.poses)
+    list.push_back({{"pose", p.label}, {"weight", p.weight}, {"residual", List(p.residual)}});
+  return list;
+}
+
+Json ParameterNames() {
+  Json list = Json::array();
+  for (const ParameterInfo& p : kParameters) list.push_back(std::string(p.name));
+  return list;
+}
+
+Json ResultObject(const ResultHeader& header, const Estimate& estimate) {
+  const Observability& observability = estimate.observability;
+  Json result;
+  result["format"] = "hexcal/result/1";
+  result["dataset"] = header.dataset;
+  result["solver"] = header.solver;
+  result["residual"] = header.residual;
+  if (!header.error.empty()) result["error"] = header.error;
+  result["converged"] = estimate.converged;
+  result["world_from_base"] = PoseObject(estimate.mounts.world_from_base);
+  result["platform_from_tool"] = PoseObject(estimate.mounts.platform_from_tool);
+  result["parameters"] = ParameterNames();
+  result["covariance"] = CovarianceRows(estimate.covariance, observability);
+  result["standard_deviation"] = StandardDeviations(estimate);
+  result["covariance_unscaled"] = CovarianceRows(estimate.covariance_unscaled, observability);
+  result["noise"] = {{"position", estimate.noise.position},
+                     {"orientation", estimate.noise.orientation},
+                     {"estimated", estimate.noise.estimated}};
+  result["noise_scale"] = estimate.noise_scale;
+  result["rmspe"] = estimate.rmspe;
+  result["rmsoe"] = estimate.rmsoe;
+  result["chi_square"] = estimate.chi_square;
+  result["degrees_of_freedom"] = estimate.degrees_of_freedom;
+  result["iterations"] = Iterations(estimate);
+  result["observability"] = {{"singular_values", List(observability.singular_values)},
+                             {"condition_number", observability.condition_number},
+                             {"weak_directions", observability.weak_directions}};
+  result["poses"] = Poses(estimate);
+  result["effects"] = Json::array();
+  result["warnings"] = estimate.warnings;
+  return result;
+}
+
+}  // namespace
+
+std::string ResultJson(const ResultHeader& header, const Estimate& estimate) {
+  return JsonText(ResultObject(header, estimate));
+}
+
+std::string ResultJsonLine(const ResultHeader& header, const Estimate& estimate) {
+  return JsonLine(ResultObject(header, estimate));
+}
+
+}  // namespace hexcal

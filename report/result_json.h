@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "estimator/estimate.h"
+
+namespace hexcal {
+
+// What a result says of how it was made.
+struct ResultHeader {
+  std::string dataset;
+  std::string solver;    // nonlinear | linearized
+  std::string residual;  // pose
+  std::string error;     // paper | twist; empty for the nonlinear solver
+};
+
+// result.json (docs/results.md), format hexcal/result/1: a key a line, an entry of a list of
+// objects a line, no times. SI units. What the data cannot determine is null.
+std::string ResultJson(const ResultHeader& header, const Estimate& estimate);
+
+// The same object on one line.
+std::string ResultJsonLine(const ResultHeader& header, const Estimate& estimate);
+
+}  // namespace hexcal

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/result_table.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/rotation_angles.h"
+
+namespace hexcal {
+namespace {
+
+constexpr double kGimbalCosine = 1e-6;
+constexpr const char* kRowNames[6] = {"x", "y", "z", "rx", "ry", "rz"};
+
+// d(rx ry rz) / d(right rotation vector): the inverse of [Rz' Ry' ex, Rz' ey, ez].
+Eigen::Matrix3d AnglesByTurn(const Eigen::Vector3d& angles) {
+  const double cy = std::cos(angles.y()), sy = std::sin(angles.y());
+  const double cz = std::cos(angles.z()), sz = std::sin(angles.z());
+  Eigen::Matrix3d turn_by_angles;
+  turn_by_angles << cy * cz, sz, 0, -cy * sz, cz, 0, sy, 0, 1;
+  return turn_by_angles.inverse();
+}
+
+// "0.0123" with as many decimals as two digits of sigma need.
+int Decimals(double sigma) {
+  if (!(sigma > 0) || !std::isfinite(sigma)) return 6;
+  return std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 1, 9);
+}
+
+std::string ValueText(double value, double sigma, bool determined, const char* unit) {
+  if (!determined) return fmt::format("{:>14.4f} {:<4} {:<13}", value, unit, "undetermined");
+  if (!std::isfinite(sigma))
+    return fmt::format("{:>14.4f} {:<4} {:<13}", value, unit, "at the gimbal");
+  const int decimals = Decimals(sigma);
+  return fmt::format("{:>14.{}f} {:<4} ± {:<11.{}f}", value, decimals, unit, sigma, decimals);
+}
+
+// The six numbers of a mount, mm and mrad, and whether each is determined.
+struct MountRows {
+  Vector6d value, sigma;
+  std::array<bool, 6> determined;
+};
+
+MountRows Rows(const Pose3d& pose, const Estimate& estimate, int first) {
+  MountRows rows;
+  rows.value = 1e3 * VectorFromPose(pose);
+  rows.sigma = 1e3 * PoseVectorSigma(pose, estimate.covariance.block<6, 6>(first, first));
+  // A number is a mix of the three shifts or turns along the mount's own axes.
+  const auto& determined = estimate.observability.determined;
+  for (int block = 0; block < 2; ++block) {
+    const bool all = std::all_of(determined.begin() + first + 3 * block,
+                                 determined.begin() + first + 3 * block + 3,
+                                 [](bool d) { return d; });
+    std::fill_n(rows.determined.begin() + 3 * block, 3, all);
+  }
+  return rows;
+}
+
+std::string Summary(const Estimate& e) {
+  std::string text = fmt::format("  left over      {:.4g} mm and {:.4g} mrad RMS (RMSPE, RMSOE)\n",
+                                 1e3 * e.rmspe,
+                                 1e3 * e.rmsoe);
+  text += fmt::format("  noise          {:.4g} mm and {:.4g} mrad a coordinate, {}\n",
+                      1e3 * e.noise.position,
+                      1e3 * e.noise.orientation,
+                      e.noise.estimated ? "estimated from what is left over" : "as stated");
+  text += fmt::format("  chi-square     {:.5g} with {} degrees of freedom (noise scale {:.3f})\n",
+                      e.chi_square,
+                      e.degrees_of_freedom,
+                      e.noise_scale);
+  text += fmt::format("  condition      {:.3g} of the scaled Jacobian\n",
+                      e.observability.condition_number);
+  return text;
+}
+
+}  // namespace
+
+Vector6d PoseVectorSigma(const Pose3d& a_from_b, const Matrix6d& covariance) {
+  const Eigen::Matrix3d rotation = a_from_b.rotation.toRotationMatrix();
+  const Eigen::Vector3d angles = AnglesFromRotation(rotation);
+  Vector6d sigma;
+  sigma.head<3>() = (rotation * covariance.topLeftCorner<3, 3>() * rotation.transpose())
+                        .diagonal()
+                        .cwiseMax(0.0)
+                        .cwiseSqrt();
+  if (std::abs(std::cos(angles.y())) < kGimbalCosine) {
+    sigma.tail<3>().setConstant(std::numeric_limits<double>::infinity());
+    return sigma;
+  }
+  const Eigen::Matrix3d j = AnglesByTurn(angles);
+  sigma.tail<3>() = (j * covariance.bottomRightCorner<3, 3>() * j.transpose())
+                        .diagonal()
+                        .cwiseMax(0.0)
+                        .cwiseSqrt();
+  return sigma;
+}
+
+std::string ResultTable(const ResultHeader& header, const Estimate& estimate) {
+  const MountRows base = Rows(estimate.mounts.world_from_base, estimate, 0);
+  const MountRows tool = Rows(estimate.mounts.platform_from_tool, estimate, 6);
+  const std::string how =
+      header.error.empty() ? header.solver : header.solver + " (" + header.error + ")";
+  std::string text = fmt::format("{}: {} poses, {}, {} after {} iterations\n\n",
+                                 header.dataset,
+                                 estimate.poses.size(),
+                                 how,
+                                 estimate.converged ? "converged" : "NOT CONVERGED",
+                                 estimate.iterations.size() - 1);
+  text += fmt::format("  {:<4}{:<36}{}\n", "", "base in world (T_B^W)", "tool on platform (T_T^A)");
+  for (int i = 0; i < 6; ++i) {
+    const char* unit = i < 3 ? "mm" : "mrad";
+    text += fmt::format("  {:<3}{} {}\n",
+                        kRowNames[i],
+                        ValueText(base.value[i], base.sigma[i], base.determined[i], unit),
+                        ValueText(tool.value[i], tool.sigma[i], tool.determined[i], unit));
+  }
+  return text + "\n" + Summary(estimate);
+}
+
+}  // namespace hexcal

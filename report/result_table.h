@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "estimator/estimate.h"
+#include "report/result_json.h"
+
+namespace hexcal {
+
+// The result for the terminal: both mounts in mm and mrad (Eq. 2's angles), each with one standard
+// deviation of just that number, then how well it fits. UTF-8.
+std::string ResultTable(const ResultHeader& header, const Estimate& estimate);
+
+// One standard deviation of [x y z rx ry rz] of a_from_b, m and rad, from the covariance of its
+// right perturbation. The angles' are infinite at the gimbal.
+Vector6d PoseVectorSigma(const Pose3d& a_from_b, const Matrix6d& covariance);
+
+}  // namespace hexcal
