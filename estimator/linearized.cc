@@ -183,6 +183,14 @@ class Iteration {
 
 }  // namespace
 
+Matrix6d PaperErrorDerivative(const Pose3d& predicted_world_from_tool) {
+  const Eigen::Matrix3d rotation = predicted_world_from_tool.rotation.toRotationMatrix();
+  Matrix6d derivative = Matrix6d::Zero();
+  derivative.topLeftCorner<3, 3>() = rotation;
+  derivative.bottomRightCorner<3, 3>() = AnglesByTurn(AnglesFromRotation(rotation));
+  return derivative;
+}
+
 Solution SolveLinearized(const std::vector<Observation>& observations,
                          const std::vector<Matrix6d>& weights,
                          const BaseAndTool& start,

@@ -40,4 +40,9 @@ Solution SolveLinearized(const std::vector<Observation>& observations,
                          const BaseAndTool& start,
                          const LinearizedOptions& options);
 
+// d(x) / d(measured [-] predicted) at a perfect fit, 6 x 6: what the difference of pose vectors
+// (Eq. 22) makes of a small motion. J does not have this factor; that is why the iteration with the
+// paper's error converges linearly only.
+Matrix6d PaperErrorDerivative(const Pose3d& predicted_world_from_tool);
+
 }  // namespace hexcal

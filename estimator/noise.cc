@@ -121,23 +121,37 @@ NoiseLevels EstimateNoise(const Observations& observations,
 }
 
 NoiseLevels EstimateNoiseOfEqualWeights(const Observations& observations,
-                                        const BaseAndTool& mounts) {
-  const std::vector<Linearised> rows = Linearise(observations, mounts);
-  Matrix12d part[2] = {Matrix12d::Zero(), Matrix12d::Zero()};
+                                        const BaseAndTool& mounts,
+                                        const std::vector<Matrix6d>& error_derivatives) {
+  // With H = J M J' S, M = (J' S J)^-1, the sums of squares that the fit leaves have the
+  // expectation
+  //   E[e_k' e_k] = sum over l of tr(V_k (1-H) V_l (1-H)') variance_l.
+  Matrix12d plain[2], once[2], twice[2];
+  for (int k = 0; k < 2; ++k) plain[k] = once[k] = twice[k] = Matrix12d::Zero();
   Eigen::Vector2d seen = Eigen::Vector2d::Zero();
-  for (const Linearised& row : rows)
+  for (std::size_t i = 0; i < observations.items.size(); ++i) {
+    const Observation& o = observations.items[i];
+    const Vector6d e = PoseError(mounts, o.base_from_platform, o.world_from_tool);
+    const Matrix6x12d j = PaperJacobian(o.base_from_platform * mounts.platform_from_tool);
     for (int k = 0; k < 2; ++k) {
-      const auto block = row.jacobian.middleRows<3>(3 * k);
-      part[k] += block.transpose() * block;
-      seen[k] += row.error.segment<3>(3 * k).squaredNorm();
+      const Eigen::Matrix<double, 3, 12> block = j.middleRows<3>(3 * k);
+      const Eigen::Matrix<double, 3, 12> carried =
+          error_derivatives.empty()
+              ? block
+              : error_derivatives[i].block<3, 3>(3 * k, 3 * k).transpose() * block;
+      plain[k] += block.transpose() * block;
+      once[k] += carried.transpose() * block;
+      twice[k] += carried.transpose() * carried;
+      seen[k] += e.segment<3>(3 * k).squaredNorm();
     }
-  const Matrix12d inverse = PseudoInverse(part[0] + part[1]);
-  // E[sum of squares k] = sum over l of tr(V_k (1-H) V_l (1-H)) variance_l, with H = J N^-1 J'.
+  }
+  const Matrix12d inverse = (once[0] + once[1]).completeOrthogonalDecomposition().pseudoInverse();
   Eigen::Matrix2d expected;
   for (int k = 0; k < 2; ++k)
     for (int l = 0; l < 2; ++l) {
-      expected(k, l) = (inverse * part[k] * inverse * part[l]).trace();
-      if (k == l) expected(k, l) += 3.0 * rows.size() - 2.0 * (inverse * part[k]).trace();
+      expected(k, l) = (plain[k] * inverse * twice[l] * inverse.transpose()).trace();
+      if (k == l)
+        expected(k, l) += 3.0 * observations.items.size() - 2.0 * (inverse * once[k]).trace();
     }
   const Eigen::Vector2d variance = expected.inverse() * seen;
   const NoiseLevels floor = Floor(observations);

@@ -15,10 +15,13 @@ NoiseLevels EstimateNoise(const Observations& observations,
                           const BaseAndTool& mounts,
                           const NoiseLevels& start);
 
-// As above for a fit with equal weights (1 m against 1 rad) that is not moved: the levels whose
-// expected sums of squares, through that fit, are the ones seen (Helmert's estimator).
+// As above for a fit that solves sum J' S e = 0 (equal weights, 1 m against 1 rad) and is not
+// moved: the levels whose expected sums of squares, through that fit, are the ones seen (Helmert's
+// estimator). S, one an observation, is what the fit made of an error e: PaperErrorDerivative for
+// the paper's, empty for the identity.
 NoiseLevels EstimateNoiseOfEqualWeights(const Observations& observations,
-                                        const BaseAndTool& mounts);
+                                        const BaseAndTool& mounts,
+                                        const std::vector<Matrix6d>& error_derivatives);
 
 // Levels to begin with: root mean square of what mounts leaves, per coordinate; never below
 // rounding.

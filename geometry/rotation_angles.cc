@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/rotation_angles.h"
 
+#include <Eigen/LU>
 #include <cmath>
 
 namespace hexcal {
@@ -26,6 +27,14 @@ Eigen::Vector3d AnglesFromRotation(const Eigen::Matrix3d& q) {
   return {rx,
           std::atan2(a.x(), -a.y() * s + a.z() * c),
           std::atan2(n.y() * c + n.z() * s, o.y() * c + o.z() * s)};
+}
+
+Eigen::Matrix3d AnglesByTurn(const Eigen::Vector3d& angles) {
+  const double cy = std::cos(angles.y()), sy = std::sin(angles.y());
+  const double cz = std::cos(angles.z()), sz = std::sin(angles.z());
+  Eigen::Matrix3d turn_by_angles;  // columns Rz' Ry' ex, Rz' ey, ez
+  turn_by_angles << cy * cz, sz, 0, -cy * sz, cz, 0, sy, 0, 1;
+  return turn_by_angles.inverse();
 }
 
 Pose3d PoseFromVector(const Vector6d& pose_vector) {

@@ -14,6 +14,9 @@ Eigen::Matrix3d RotationFromAngles(const Eigen::Vector3d& angles);
 // where only rx +- rz is determined) rx is set to zero.
 Eigen::Vector3d AnglesFromRotation(const Eigen::Matrix3d& rotation);
 
+// d(rx ry rz) / d(right rotation vector) at these angles. Infinite or huge near the gimbal.
+Eigen::Matrix3d AnglesByTurn(const Eigen::Vector3d& angles);
+
 // Eq. (2): Tra(x, y, z) Rot(x, rx) Rot(y, ry) Rot(z, rz) of [x y z rx ry rz], m and rad, and back
 // (Eq. 30).
 Pose3d PoseFromVector(const Vector6d& pose_vector);

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,15 +14,6 @@ namespace {
 
 constexpr double kGimbalCosine = 1e-6;
 constexpr const char* kRowNames[6] = {"x", "y", "z", "rx", "ry", "rz"};
-
-// d(rx ry rz) / d(right rotation vector): the inverse of [Rz' Ry' ex, Rz' ey, ez].
-Eigen::Matrix3d AnglesByTurn(const Eigen::Vector3d& angles) {
-  const double cy = std::cos(angles.y()), sy = std::sin(angles.y());
-  const double cz = std::cos(angles.z()), sz = std::sin(angles.z());
-  Eigen::Matrix3d turn_by_angles;
-  turn_by_angles << cy * cz, sz, 0, -cy * sz, cz, 0, sy, 0, 1;
-  return turn_by_angles.inverse();
-}
 
 // "0.0123" with as many decimals as two digits of sigma need.
 int Decimals(double sigma) {

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "geometry/rotation_angles.h"
 #include "testing/matchers.h"
 #include "testing/scenes.h"
 
@@ -111,6 +112,14 @@ TEST(Linearized, ThePapersJacobianIsTheDerivativeOfThePrediction) {
     EXPECT_TRUE(testing::JacobianNear(
         PaperJacobian(o.base_from_platform * mounts.platform_from_tool), numeric, 1e-8));
   }
+}
+
+TEST(Linearized, ThePapersErrorDerivativeIsThatOfThePoseVector) {
+  auto rng = testing::SeededByTest();
+  const Pose3d pose = testing::SmallPose(rng, 1.0, 0.8);
+  const Eigen::MatrixXd numeric = testing::NumericJacobian(
+      [&](const Eigen::VectorXd& d) { return VectorFromPose(Plus(pose, Vector6d(d))); }, 6);
+  EXPECT_TRUE(testing::JacobianNear(PaperErrorDerivative(pose), numeric, 1e-8));
 }
 
 }  // namespace

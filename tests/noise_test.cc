@@ -82,7 +82,7 @@ TEST(Noise, VariancesAreUnbiasedWithFewPoses) {
     const Estimate weighted = Calibrate(observations, {}, {});
     CalibrateOptions paper_weights;  // equal weights, through the twist iteration
     const Solution equal = SolveLinearized(rows, {}, truth, paper_weights.linearized);
-    const NoiseLevels helmert = EstimateNoiseOfEqualWeights(observations, equal.mounts);
+    const NoiseLevels helmert = EstimateNoiseOfEqualWeights(observations, equal.mounts, {});
     mean += Eigen::Vector4d(std::pow(weighted.noise.position / 3e-4, 2),
                             std::pow(weighted.noise.orientation / 1e-3, 2),
                             std::pow(helmert.position / 3e-4, 2),

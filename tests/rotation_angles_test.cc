@@ -53,6 +53,20 @@ TEST(RotationAngles, EveryRotationComesBack) {
   }
 }
 
+TEST(RotationAngles, ByTurnIsTheDerivative) {
+  auto rng = SeededByTest();
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Vector3d angles = testing::UniformVector(rng, 1.4);
+    const Eigen::Quaterniond q(RotationFromAngles(angles));
+    const Eigen::MatrixXd numeric = testing::NumericJacobian(
+        [&](const Eigen::VectorXd& d) {
+          return AnglesFromRotation((q * Exp(Eigen::Vector3d(d))).toRotationMatrix());
+        },
+        3);
+    EXPECT_TRUE(testing::JacobianNear(AnglesByTurn(angles), numeric, 1e-7));
+  }
+}
+
 TEST(RotationAngles, NearTheGimbalTheRotationStillComesBack) {
   for (const double off : {1e-4, 1e-7, 1e-9, 1e-11, 1e-13}) {
     const Eigen::Matrix3d rotation = RotationFromAngles({0.4, kHalfPi - off, 0.9});

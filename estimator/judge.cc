@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/judge.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "estimator/linearized.h"
+#include "residuals/whitener.h"
+
+namespace hexcal {
+namespace {
+
+// Residuals this many times larger than the stated noise explains put it in doubt.
+constexpr double kDoubtfulScale = 2.0;
+
+class Judgement {
+ public:
+  Judgement(const Observations& observations, const Weighting& weighting, Estimate* estimate)
+      : observations_(observations), weighting_(weighting), estimate_(*estimate) {}
+
+  void Run() {
+    SetResiduals();
+    SetCovariance();
+    AddWarnings();
+  }
+
+ private:
+  Matrix6d Covariance(const Observation& o) const {
+    return ErrorCovariance(
+        o, observations_, estimate_.mounts.platform_from_tool, weighting_.levels);
+  }
+
+  void SetResiduals() {
+    const double n = static_cast<double>(observations_.items.size());
+    Vector6d mean_square = Vector6d::Zero(), mean_variance = Vector6d::Zero();
+    for (const Observation& o : observations_.items) {
+      const Vector6d e = PoseError(estimate_.mounts, o.base_from_platform, o.world_from_tool);
+      const Matrix6d c = Covariance(o);
+      estimate_.poses.push_back({o.label, 1.0, e});
+      estimate_.chi_square += (WhitenerOf(c) * e).squaredNorm();
+      mean_square += e.cwiseAbs2() / n;
+      mean_variance += c.diagonal() / n;
+    }
+    estimate_.rmspe = std::sqrt(mean_square.head<3>().sum());
+    estimate_.rmsoe = std::sqrt(mean_square.tail<3>().sum());
+    if (weighting_.paper_error) {  // Eq. (42) over the paper's own differences
+      estimate_.rmspe = estimate_.iterations.back().rmspe;
+      estimate_.rmsoe = estimate_.iterations.back().rmsoe;
+    }
+    estimate_.noise = {std::sqrt(mean_variance.head<3>().mean()),
+                       std::sqrt(mean_variance.tail<3>().mean()),
+                       weighting_.levels_estimated};
+  }
+
+  void SetCovariance() {
+    JacobianFactor factor;
+    for (const Observation& o : observations_.items) {
+      const Vector6d e = PoseError(estimate_.mounts, o.base_from_platform, o.world_from_tool);
+      const Pose3d base_from_tool = o.base_from_platform * estimate_.mounts.platform_from_tool;
+      factor.Add(WhitenerOf(Covariance(o)) * PoseErrorJacobian(e, base_from_tool));
+    }
+    ParameterCovariance result = ComputeCovariance(factor.R(), Limits());
+    estimate_.observability = result.observability;
+    if (weighting_.paper_error) result.covariance = PaperCovariance();
+
+    const int parameters = 12 - result.observability.null_directions;
+    estimate_.degrees_of_freedom = 6 * static_cast<int>(observations_.items.size()) - parameters;
+    estimate_.noise_scale = std::sqrt(estimate_.chi_square / estimate_.degrees_of_freedom);
+    const double scale = weighting_.levels_estimated ? std::pow(estimate_.noise_scale, 2) : 1.0;
+    const Matrix12d common = CommonTrackerCovariance();
+    estimate_.covariance_unscaled = result.covariance + common;
+    estimate_.covariance = scale * result.covariance + common;
+  }
+
+  // The paper's iteration stands still where sum J' S e = 0, with S what its pose difference makes
+  // of e: y = (J'SJ)^-1 J'S e, and its covariance follows from that of e.
+  Matrix12d PaperCovariance() const {
+    Matrix12d normal = Matrix12d::Zero(), spread = Matrix12d::Zero();
+    for (const Observation& o : observations_.items) {
+      const Pose3d base_from_tool = o.base_from_platform * estimate_.mounts.platform_from_tool;
+      const Matrix6x12d j = PaperJacobian(base_from_tool);
+      const Matrix6x12d carried =
+          PaperErrorDerivative(estimate_.mounts.world_from_base * base_from_tool).transpose() * j;
+      normal += carried.transpose() * j;
+      spread += carried.transpose() * Covariance(o) * carried;
+    }
+    const Matrix12d inverse = normal.completeOrthogonalDecomposition().pseudoInverse();
+    return inverse * spread * inverse.transpose();
+  }
+
+  // No sigma may be longer than the machine is large.
+  CovarianceOptions Limits() const {
+    CovarianceOptions options;
+    double size = 1e-3, orientation_variance = 0.0;
+    const Eigen::Vector3d first = observations_.items[0].world_from_tool.translation;
+    for (const Observation& o : observations_.items) {
+      size = std::max(
+          {size,
+           (o.world_from_tool.translation - first).norm(),
+           (o.base_from_platform * estimate_.mounts.platform_from_tool).translation.norm()});
+      orientation_variance += o.robot_covariance.diagonal().tail<3>().mean();
+    }
+    options.largest_sigma_m = size;
+    if (observations_.has_robot_noise)
+      options.robot_orientation_noise_rad =
+          std::sqrt(orientation_variance / observations_.items.size());
+    return options;
+  }
+
+  // An error of the common tracker pose moves world_from_base alone, by its own amount.
+  Matrix12d CommonTrackerCovariance() const {
+    Matrix12d common = Matrix12d::Zero();
+    if (observations_.tracker_from_world) {
+      const Matrix6d carry = InverseAdjoint(estimate_.mounts.world_from_base);
+      common.topLeftCorner<6, 6>() =
+          carry * observations_.tracker_from_world_covariance * carry.transpose();
+    }
+    return common;
+  }
+
+  void AddWarnings() {
+    auto& warnings = estimate_.warnings;
+    if (!estimate_.converged) warnings.push_back("no convergence: " + estimate_.message);
+    for (const std::string& direction : estimate_.observability.weak_directions)
+      warnings.push_back("the data do not determine " + direction);
+    if (!weighting_.levels_estimated && estimate_.noise_scale > kDoubtfulScale)
+      warnings.push_back(
+          fmt::format("the residuals are {:.1f} times larger than the stated noise explains: the "
+                      "noise is larger, or the model "
+                      "misses something",
+                      estimate_.noise_scale));
+  }
+
+  const Observations& observations_;
+  const Weighting& weighting_;
+  Estimate& estimate_;
+};
+
+}  // namespace
+
+void Judge(const Observations& observations, const Weighting& weighting, Estimate* estimate) {
+  Judgement(observations, weighting, estimate).Run();
+}
+
+}  // namespace hexcal

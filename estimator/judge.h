@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "estimator/estimate.h"
+#include "estimator/observations.h"
+
+namespace hexcal {
+
+// How the mounts of an estimate were weighted: what a judgement of them must know.
+struct Weighting {
+  NoiseLevels levels;             // of the tool noise, where the observations do not know it
+  bool levels_estimated = false;  // from these residuals
+  bool paper_error =
+      false;  // equal weights over the paper's pose differences (Eq. 22), else inverse covariances
+};
+
+// Fills in all that follows from the mounts: residuals, chi-square, covariance, what is not
+// determined, warnings.
+void Judge(const Observations& observations, const Weighting& weighting, Estimate* estimate);
+
+}  // namespace hexcal
