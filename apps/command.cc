@@ -4,11 +4,41 @@
 #include <algorithm>
 #include <limits>
 
+#include "apps/calibrate.h"
 #include "apps/predict.h"
 #include "apps/simulate.h"
 
 namespace hexcal {
 namespace {
+
+const Command kCalibrate = {
+    "calibrate",
+    "where the base and the tool are, and how sure that is",
+    "DATASET...",
+    1,
+    std::numeric_limits<std::size_t>::max(),
+    "Estimates the base mount T_B^W and the tool mount T_T^A of each dataset, 12 parameters with "
+    "their covariance, and writes result.json, model.yaml and run.json to DIR/<name>/. Where the "
+    "dataset states no noise, that of positions and that of orientations are estimated with the "
+    "mounts. Exit status 4: there are results, but the data do not determine all 12 parameters or "
+    "the solver did not converge.",
+    {{"out", true, "DIR", "The results of a dataset go to DIR/<name>/."},
+     {"solver"},
+     {"residual"},
+     {"start"},
+     {"noise_position"},
+     {"noise_orientation"},
+     {"error"},
+     {"unit_magnitude"},
+     {"iterations"},
+     {"tolerance"},
+     {"config"},
+     {"threads"},
+     {"json"},
+     {"quiet"},
+     {"force"}},
+    &RunCalibrate,
+};
 
 const Command kPredict = {
     "predict",
@@ -56,7 +86,7 @@ const CommandFlag* Command::FindFlag(std::string_view flag) const {
 }
 
 const std::vector<Command>& Commands() {
-  static const std::vector<Command> commands = {kPredict, kSimulate};
+  static const std::vector<Command> commands = {kCalibrate, kPredict, kSimulate};
   return commands;
 }
 

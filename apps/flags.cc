@@ -27,6 +27,9 @@ DEFINE_string(error,
               "paper",
               "What the iteration makes small: the difference of pose vectors of Eq. (22), or the "
               "body twist.");
+DEFINE_string(unit_magnitude,
+              "approach_first",
+              "How the paper's updated matrices are made unit magnitude (--error=paper).");
 DEFINE_int32(iterations, 20, "Largest number of iterations.");
 DEFINE_double(tolerance,
               1e-12,
@@ -77,6 +80,11 @@ std::vector<FlagSpec> MakeSpecs() {
       {"noise", kNoise, "FACTOR", "", {}, {}, 0.0, 1e6},
       {"seed", kNoise, "N", "", {}, {}, 0.0},
       {"error", kLinearized, "", "", {"paper", "twist"}},
+      {"unit_magnitude",
+       kLinearized,
+       "",
+       "",
+       {"approach_first", "normal_first", "nearest_rotation", "columns", "rows"}},
       {"iterations", kLinearized, "N", "", {}, {}, 1, 10000},
       {"tolerance", kLinearized, "STEP", "", {}, {}, 0.0, 1.0, true},
       {"config", kRunning, "FILE.yaml", ""},

@@ -15,6 +15,7 @@ DECLARE_string(solver);
 DECLARE_string(residual);
 DECLARE_string(start);
 DECLARE_string(error);
+DECLARE_string(unit_magnitude);
 DECLARE_int32(iterations);
 DECLARE_double(tolerance);
 DECLARE_double(noise_position);

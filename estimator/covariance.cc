@@ -104,7 +104,10 @@ ParameterCovariance ComputeCovariance(const Matrix12d& r_factor, const Covarianc
   observability.determined.fill(true);
   for (int k = 0; k < 12; ++k) {
     const Vector12d scaled = svd.matrixV().col(k);
-    const Vector12d direction = unscale.asDiagonal() * scaled;
+    Vector12d direction = unscale.asDiagonal() * scaled;
+    Eigen::Index largest = 0;
+    direction.cwiseAbs().maxCoeff(&largest);
+    if (direction[largest] < 0) direction = -direction;  // either sign is the same direction
     if (IsNull(s[k], s[0], direction / s[k], options)) {
       ++observability.null_directions;
       observability.weak_directions.push_back(DescribeDirection(direction));

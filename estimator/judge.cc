@@ -13,7 +13,7 @@
 namespace hexcal {
 namespace {
 
-// Residuals this many times larger than the stated noise explains put it in doubt.
+// Residuals this many times larger or smaller than the stated noise explains put it in doubt.
 constexpr double kDoubtfulScale = 2.0;
 
 class Judgement {
@@ -126,12 +126,17 @@ class Judgement {
     if (!estimate_.converged) warnings.push_back("no convergence: " + estimate_.message);
     for (const std::string& direction : estimate_.observability.weak_directions)
       warnings.push_back("the data do not determine " + direction);
-    if (!weighting_.levels_estimated && estimate_.noise_scale > kDoubtfulScale)
+    if (weighting_.levels_estimated) return;
+    if (estimate_.noise_scale > kDoubtfulScale)
       warnings.push_back(
           fmt::format("the residuals are {:.1f} times larger than the stated noise explains: the "
-                      "noise is larger, or the model "
-                      "misses something",
+                      "noise is larger, or the model misses something",
                       estimate_.noise_scale));
+    if (estimate_.noise_scale < 1.0 / kDoubtfulScale)
+      warnings.push_back(
+          fmt::format("the residuals are {:.1f} times smaller than the stated noise: it is too "
+                      "large, and so are the standard deviations",
+                      1.0 / estimate_.noise_scale));
   }
 
   const Observations& observations_;

@@ -36,8 +36,9 @@ class Recorder : public ceres::IterationCallback {
     record.rmspe = std::sqrt(record.rmspe);
     record.rmsoe = std::sqrt(record.rmsoe);
     records_->push_back(record);
-    return !options_.keep_going || options_.keep_going() ? ceres::SOLVER_CONTINUE
-                                                         : ceres::SOLVER_ABORT;
+    if (options_.after_iteration)
+      options_.after_iteration(summary.iteration, options_.max_iterations);
+    return ceres::SOLVER_CONTINUE;
   }
 
  private:

@@ -11,8 +11,8 @@ namespace hexcal {
 struct NonlinearOptions {
   int max_iterations = 100;
   double tolerance = 1e-15;  // of the cost and of the parameters, relative
-  // Called after every iteration; false stops the solver, which then reports no convergence.
-  std::function<bool()> keep_going;
+  // Called after every iteration with the number done and the largest number; for a progress bar.
+  std::function<void(int, int)> after_iteration;
 };
 
 // The Ceres problem: world_from_base and platform_from_tool on PoseManifold, one PoseResidual an

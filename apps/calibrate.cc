@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/calibrate.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <gflags/gflags.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <optional>
+
+#include "apps/calibrate_options.h"
+#include "apps/command.h"
+#include "apps/dataset_files.h"
+#include "apps/exit_status.h"
+#include "apps/flags.h"
+#include "apps/in_order.h"
+#include "apps/message.h"
+#include "apps/output_folder.h"
+#include "apps/progress.h"
+#include "apps/version.h"
+#include "config/input_error.h"
+#include "model/machine.h"
+#include "report/result_table.h"
+#include "report/run_record.h"
+
+namespace hexcal {
+namespace {
+
+constexpr std::string_view kRunMark = "\"format\": \"hexcal/run/";
+// Warnings of one dataset on stderr; result.json holds all.
+constexpr std::size_t kMaxWarnings = 10;
+
+const std::vector<OutputFile>& ResultFiles() {
+  static const std::vector<OutputFile> files = {{"result.json", std::string(kResultMark)},
+                                                {"model.yaml", std::string(kModelMark)},
+                                                {"run.json", std::string(kRunMark)}};
+  return files;
+}
+
+struct Job {
+  Dataset dataset;
+  OutputFolder folder;
+};
+
+// What came of a dataset: an estimate, or why there is none.
+struct Outcome {
+  std::optional<Estimate> estimate;
+  std::optional<Pose3d> world_from_tracker;
+  std::string refusal;
+  double seconds = 0.0;
+};
+
+class CalibrateRun {
+ public:
+  explicit CalibrateRun(const std::vector<std::string>& files)
+      : files_(files), options_(CalibrateOptionsFromFlags()), threads_(ThreadsFor(FLAGS_threads)) {}
+
+  int Run() {
+    OpenAll();
+    {
+      Progress progress("calibrating", FLAGS_quiet);
+      if (jobs_.size() == 1)
+        options_.nonlinear.after_iteration = [&progress](int done, int at_most) {
+          progress.Update(done, at_most);
+        };
+      ForEachInOrder<Outcome>(
+          jobs_.size(),
+          threads_,
+          [this](std::size_t i) { return Work(jobs_[i].dataset); },
+          [this, &progress](std::size_t i, Outcome outcome) {
+            Finish(&jobs_[i], outcome);
+            progress.Update(static_cast<long>(i + 1), static_cast<long>(jobs_.size()));
+          });
+    }
+    if (failed_ > 0) {
+      PrintError(fmt::format("{} of {} datasets failed", failed_, files_.size()));
+      return kSomeFailed;
+    }
+    return untrusted_ > 0 ? kNotTrusted : kDone;
+  }
+
+ private:
+  // Of several datasets, a bad one does not keep the others from being done.
+  void Refuse(const InputError& error) {
+    if (files_.size() == 1) throw error;
+    PrintError(error.what());
+    ++failed_;
+  }
+
+  void OpenAll() {
+    std::vector<Dataset> datasets;
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const std::string& file : files_) try {
+        datasets.push_back(OpenDataset(file, true));
+        names.emplace_back(file, datasets.back().name);
+      } catch (const InputError& error) {
+        Refuse(error);
+      }
+    RequireDistinctNames(names);
+    for (Dataset& dataset : datasets) {
+      OutputFolder folder(
+          FLAGS_out, dataset.name, ResultFiles(), InputFiles(dataset, ""), FLAGS_force);
+      jobs_.push_back({std::move(dataset), std::move(folder)});
+    }
+  }
+
+  Outcome Work(const Dataset& dataset) const {
+    const auto start = std::chrono::steady_clock::now();
+    Outcome outcome;
+    try {
+      std::optional<BaseAndTool> initial;
+      if (dataset.initial)
+        initial = {dataset.initial->world_from_base, dataset.initial->platform_from_tool};
+      if (options_.start == Start::kInitial && !initial)
+        throw InputError(
+            FileLocation(dataset.path), "no key 'initial'", "a first guess for --start=initial");
+      const Observations observations = MakeObservations(dataset);
+      outcome.estimate = Calibrate(observations, initial, options_);
+      if (observations.tracker_from_world)
+        outcome.world_from_tracker = observations.tracker_from_world->Inverse();
+    } catch (const InputError& error) {
+      outcome.refusal = error.what();
+    }
+    outcome.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return outcome;
+  }
+
+  void Finish(Job* job, const Outcome& outcome) {
+    if (!outcome.estimate) return Refuse(InputError(outcome.refusal));
+    const Estimate& estimate = *outcome.estimate;
+    const ResultHeader header = HeaderOf(job->dataset.name, options_);
+    Machine machine{job->dataset.name,
+                    estimate.mounts.world_from_base,
+                    estimate.mounts.platform_from_tool,
+                    outcome.world_from_tracker,
+                    job->dataset.hexapod};
+    job->folder.Write("model.yaml", WriteMachine(machine));
+    job->folder.Write("run.json", RunJson(RecordOf(job->dataset, outcome.seconds)));
+    job->folder.Write("result.json", ResultJson(header, estimate));
+    if (!estimate.IsTrustworthy()) ++untrusted_;
+    PrintWarnings(job->dataset, estimate);
+    Print(*job, header, estimate);
+  }
+
+  RunRecord RecordOf(const Dataset& dataset, double seconds) const {
+    const std::time_t now = std::time(nullptr);
+    return {VersionText(),
+            Settings(),
+            InputFiles(dataset, ""),
+            fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now)),
+            seconds,
+            threads_};
+  }
+
+  // Every flag of the command with the value that it had in the end.
+  static std::vector<std::pair<std::string, std::string>> Settings() {
+    std::vector<std::pair<std::string, std::string>> settings;
+    for (const CommandFlag& flag : FindCommand("calibrate")->flags) {
+      std::string value;
+      gflags::GetCommandLineOption(std::string(flag.name).c_str(), &value);
+      settings.emplace_back(flag.name, value);
+    }
+    return settings;
+  }
+
+  // The dataset's own were printed when it was read.
+  static void PrintWarnings(const Dataset& dataset, const Estimate& estimate) {
+    std::size_t count = 0;
+    for (const std::string& warning : estimate.warnings) {
+      if (std::count(dataset.warnings.begin(), dataset.warnings.end(), warning) > 0) continue;
+      if (++count <= kMaxWarnings) PrintWarning(dataset.name + ": " + warning);
+    }
+    if (count > kMaxWarnings)
+      PrintWarning(
+          fmt::format("{}: {} more warnings, in result.json", dataset.name, count - kMaxWarnings));
+  }
+
+  void Print(const Job& job, const ResultHeader& header, const Estimate& estimate) const {
+    if (FLAGS_quiet) return;
+    Progress::ClearVisible();
+    if (FLAGS_json)
+      fmt::print("{}\n", ResultJsonLine(header, estimate));
+    else
+      fmt::print("{}  written to     {}\n\n", ResultTable(header, estimate), job.folder.path());
+  }
+
+  const std::vector<std::string>& files_;
+  CalibrateOptions options_;
+  int threads_;
+  std::vector<Job> jobs_;
+  int failed_ = 0;
+  int untrusted_ = 0;
+};
+
+}  // namespace
+
+int RunCalibrate(const std::vector<std::string>& files) { return CalibrateRun(files).Run(); }
+
+}  // namespace hexcal

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/calibrate_options.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "apps/flags.h"
+
+namespace hexcal {
+namespace {
+
+// The flag's choices (apps/flags.cc) have let nothing else through.
+template <typename Value, std::size_t N>
+Value FromName(const std::string& name,
+               const std::array<std::pair<std::string_view, Value>, N>& names) {
+  const auto found = std::find_if(
+      names.begin(), names.end(), [&name](const auto& entry) { return entry.first == name; });
+  CHECK(found != names.end()) << "no value for '" << name << "'";
+  return found->second;
+}
+
+using Reading = LinearizedOptions::UnitMagnitude;
+
+constexpr std::array<std::pair<std::string_view, Start>, 5> kStarts = {
+    {{"closed_form", Start::kClosedForm},
+     {"shah", Start::kShah},
+     {"park_martin", Start::kParkMartin},
+     {"initial", Start::kInitial},
+     {"identity", Start::kIdentity}}};
+
+constexpr std::array<std::pair<std::string_view, Reading>, 5> kReadings = {
+    {{"approach_first", Reading::kApproachFirst},
+     {"normal_first", Reading::kNormalFirst},
+     {"nearest_rotation", Reading::kNearestRotation},
+     {"columns", Reading::kColumns},
+     {"rows", Reading::kRows}}};
+
+}  // namespace
+
+CalibrateOptions CalibrateOptionsFromFlags() {
+  CalibrateOptions options;
+  options.solver = FLAGS_solver == "linearized" ? Solver::kLinearized : Solver::kNonlinear;
+  if (!FLAGS_start.empty()) options.start = FromName(FLAGS_start, kStarts);
+  if (FLAGS_noise_position > 0)
+    options.noise = NoiseLevels{FLAGS_noise_position, FLAGS_noise_orientation};
+  options.linearized.error =
+      FLAGS_error == "twist" ? LinearizedOptions::Error::kTwist : LinearizedOptions::Error::kPaper;
+  options.linearized.unit_magnitude = FromName(FLAGS_unit_magnitude, kReadings);
+  options.linearized.max_iterations = FLAGS_iterations;
+  options.linearized.tolerance = FLAGS_tolerance;
+  return options;
+}
+
+ResultHeader HeaderOf(const std::string& dataset, const CalibrateOptions& options) {
+  const bool linearized = options.solver == Solver::kLinearized;
+  const bool paper = options.linearized.error == LinearizedOptions::Error::kPaper;
+  return {dataset,
+          linearized ? "linearized" : "nonlinear",
+          "pose",
+          !linearized ? ""
+          : paper     ? "paper"
+                      : "twist"};
+}
+
+}  // namespace hexcal

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/run_record.h"
+
+#include "report/json_text.h"
+
+namespace hexcal {
+
+std::string RunJson(const RunRecord& record) {
+  nlohmann::ordered_json versions = nlohmann::ordered_json::array();
+  std::string line;
+  for (const char c : record.version) {
+    if (c != '\n') {
+      line += c;
+      continue;
+    }
+    versions.push_back(line);
+    line.clear();
+  }
+  nlohmann::ordered_json run;
+  run["format"] = "hexcal/run/1";
+  run["versions"] = versions;
+  run["settings"] = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : record.settings) run["settings"][name] = value;
+  run["inputs"] = record.inputs;
+  run["started"] = record.started_utc;
+  run["seconds"] = record.seconds;
+  run["threads"] = record.threads;
+  return JsonText(run);
+}
+
+}  // namespace hexcal
