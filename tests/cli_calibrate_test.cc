@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// hexcal calibrate from outside: the way from a simulated dataset to result.json and model.yaml.
+// What the numbers ought to be is tested with the estimators.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "model/machine.h"
+#include "tests/testing/matchers.h"
+#include "tests/testing/run_program.h"
+#include "tests/testing/temporary_folder.h"
+
+namespace hexcal {
+namespace {
+
+using ::hexcal::testing::PoseNear;
+using ::hexcal::testing::ProgramResult;
+using ::hexcal::testing::RunHexcal;
+using ::hexcal::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::UnorderedElementsAre;
+
+using Arguments = std::vector<std::string>;
+
+constexpr const char* kModel = R"(format: hexcal/model/1
+dataset: demo
+world_from_base: {xyz: [1, 2, 3], quaternion: [0.5, 0.5, 0.5, 0.5]}
+platform_from_tool: {xyz: [0.1, 0.05, 0.2], quaternion: [0.8, 0, 0.6, 0]}
+)";
+
+// Poses of the robot; only those that turn about several axes determine base and tool.
+constexpr const char* kGoodRows = R"(    - [a, 0, 0, 0.4, 0, 0, 0]
+    - [b, 0.05, 0, 0.4, 0.3, 0, 0]
+    - [c, 0, 0.05, 0.42, 0, 0.3, 0]
+    - [d, 0.02, 0.01, 0.38, 0, 0, 0.3]
+    - [e, -0.05, 0.03, 0.41, -0.2, 0.2, 0.1]
+    - [f, 0.01, -0.04, 0.39, 0.1, -0.3, -0.2]
+)";
+constexpr const char* kOneAxisRows = R"(    - [a, 0, 0, 0.4, 0, 0, 0]
+    - [b, 0.05, 0, 0.4, 0, 0, 0.3]
+    - [c, 0, 0.05, 0.42, 0, 0, -0.2]
+    - [d, 0.02, 0.01, 0.38, 0, 0, 0.2]
+    - [e, -0.05, 0.03, 0.41, 0, 0, 0.1]
+    - [f, 0.01, -0.04, 0.39, 0, 0, -0.3]
+)";
+
+std::string DatasetText(const std::string& name, const std::string& rows) {
+  return "format: hexcal/dataset/1\nname: " + name +
+         "\nunits: {length: m, angle: rad}\nrobot_poses:\n  rows:\n"
+         "    - [pose, x, y, z, rx, ry, rz]\n" +
+         rows + "measurement:\n  kind: poses\n  rows:\n    - [pose, x, y, z, rx, ry, rz]\n" + rows +
+         "  noise: {position: 0.0001, orientation: 0.001}\n";
+}
+
+class CliCalibrate : public ::testing::Test {
+ protected:
+  CliCalibrate() {
+    folder.Write("m.yaml", kModel);
+    Make("good", kGoodRows);
+  }
+
+  // A dataset as the machine of m.yaml would be measured: data/NAME/dataset.yaml.
+  void Make(const std::string& name, const std::string& rows, const std::string& noise = "1") {
+    folder.Write("d.yaml", DatasetText(name, rows));
+    const ProgramResult result =
+        Call({"simulate", "d.yaml", "--model=m.yaml", "--out=data", "--quiet", "--noise=" + noise});
+    ASSERT_EQ(result.status, 0) << result.err;
+  }
+
+  ProgramResult Call(const Arguments& arguments) const {
+    return RunHexcal({arguments, folder.Path("")});
+  }
+
+  ProgramResult Calibrate(const Arguments& more = {}, const std::string& name = "good") const {
+    Arguments arguments = {"calibrate", "data/" + name + "/dataset.yaml"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Call(arguments);
+  }
+
+  std::string Result(const std::string& where) const { return folder.Read(where + "/result.json"); }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(CliCalibrate, RecoversTheMachineThatWasSimulated) {
+  Make("exact", kGoodRows, "0");
+  const ProgramResult result = Calibrate({"--out=out"}, "exact");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("mrad"));
+  const Machine truth = ReadMachine(folder.Path("m.yaml"));
+  const Machine found = ReadMachine(folder.Path("out/exact/model.yaml"));
+  EXPECT_TRUE(PoseNear(found.world_from_base, truth.world_from_base, 1e-9, 1e-9));
+  EXPECT_TRUE(PoseNear(found.platform_from_tool, truth.platform_from_tool, 1e-9, 1e-9));
+}
+
+TEST_F(CliCalibrate, TheModelGoesBackIn) {
+  EXPECT_EQ(Calibrate({"--out=out"}).status, 0);
+  const Arguments predict = {
+      "predict", "data/good/dataset.yaml", "--model=out/good/model.yaml", "--out=p.csv"};
+  EXPECT_EQ(Call(predict).status, 0);
+}
+
+TEST_F(CliCalibrate, TheResultSaysWhatItIs) {
+  EXPECT_EQ(Calibrate({"--out=out"}).status, 0);
+  const nlohmann::json result = nlohmann::json::parse(Result("out/good"));
+  EXPECT_EQ(result["format"], "hexcal/result/1");
+  EXPECT_EQ(result["dataset"], "good");
+  EXPECT_EQ(result["converged"], true);
+  EXPECT_EQ(result["parameters"].size(), 12U);
+  EXPECT_EQ(result["covariance"].size(), 12U);
+  EXPECT_EQ(result["poses"].size(), 6U);
+}
+
+TEST_F(CliCalibrate, TheBytesDependNeitherOnTheRunNorOnTheThreads) {
+  EXPECT_EQ(Calibrate({"--out=one", "--threads=1"}).status, 0);
+  EXPECT_EQ(Calibrate({"--out=two", "--threads=2", "--quiet"}).status, 0);
+  EXPECT_THAT(Result("one/good"), Not(IsEmpty()));
+  EXPECT_EQ(Result("one/good"), Result("two/good"));
+  EXPECT_EQ(folder.Read("one/good/model.yaml"), folder.Read("two/good/model.yaml"));
+}
+
+TEST_F(CliCalibrate, JsonIsAnObjectALineAndNothingElse) {
+  Make("other", kGoodRows);
+  const ProgramResult result = Calibrate({"data/other/dataset.yaml", "--out=out", "--json"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  std::istringstream lines(result.out);
+  std::vector<std::string> names;
+  for (std::string line; std::getline(lines, line);)
+    names.push_back(nlohmann::json::parse(line)["dataset"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"good", "other"}));
+}
+
+TEST_F(CliCalibrate, QuietPrintsNothing) {
+  const ProgramResult result = Calibrate({"--out=out", "--quiet"});
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err, IsEmpty());
+}
+
+TEST_F(CliCalibrate, WhatTheDataCannotDetermineIsStatusFourAndStillWritten) {
+  Make("one_axis", kOneAxisRows);
+  const ProgramResult result = Calibrate({"--out=out"}, "one_axis");
+  EXPECT_EQ(result.status, 4) << result.err;
+  const nlohmann::json written = nlohmann::json::parse(Result("out/one_axis"));
+  EXPECT_FALSE(written["observability"]["weak_directions"].empty());
+}
+
+TEST_F(CliCalibrate, ItsOwnResultsAreReplacedAndOthersAreNot) {
+  EXPECT_EQ(Calibrate({"--out=out"}).status, 0);
+  EXPECT_EQ(Calibrate({"--out=out", "--solver=linearized", "--error=twist"}).status, 0);
+  folder.Write("out/good/result.json", "{}");
+  const ProgramResult refused = Calibrate({"--out=out"});
+  EXPECT_EQ(refused.status, 5);
+  EXPECT_THAT(refused.err, HasSubstr("result.json: this file is in the way"));
+  EXPECT_EQ(Result("out/good"), "{}");
+  EXPECT_EQ(Calibrate({"--out=out", "--force"}).status, 0);
+}
+
+TEST_F(CliCalibrate, DatasetsOfOneNameAreRefusedBeforeAnythingIsComputed) {
+  const ProgramResult result = Calibrate({"data/good/dataset.yaml", "--out=out"});
+  EXPECT_EQ(result.status, 3);
+  EXPECT_THAT(result.err, HasSubstr("found the name 'good'"));
+  EXPECT_THAT(folder.Names(), UnorderedElementsAre("d.yaml", "data", "m.yaml"));
+}
+
+TEST_F(CliCalibrate, OneBadDatasetOfTwoIsStatusSixAndTheOtherIsDone) {
+  folder.Write("bad.yaml", "format: hexcal/dataset/1\n");
+  const ProgramResult result = Calibrate({"bad.yaml", "--out=out"});
+  EXPECT_EQ(result.status, 6);
+  EXPECT_THAT(result.err, HasSubstr("bad.yaml"));
+  EXPECT_THAT(Result("out/good"), Not(IsEmpty()));
+}
+
+TEST_F(CliCalibrate, FlagsThatDoNotGoTogetherAreWrongUsage) {
+  const auto expect_wrong_usage = [&](const Arguments& flags, const char* message) {
+    Arguments more = {"--out=out"};
+    more.insert(more.end(), flags.begin(), flags.end());
+    const ProgramResult result = Calibrate(more);
+    EXPECT_EQ(result.status, 2) << message;
+    EXPECT_THAT(result.err, HasSubstr(message));
+  };
+  expect_wrong_usage({"--residual=marker"}, "'marker' is not in this version");
+  expect_wrong_usage({"--error=paper"}, "--error has an effect only with --solver=linearized");
+  expect_wrong_usage({"--noise_position=0.1"}, "--noise_position needs --noise_orientation");
+  expect_wrong_usage({"--solver=linear"}, "found 'linear', expected nonlinear or linearized");
+  expect_wrong_usage({"--start=middle"}, "expected closed_form, initial");
+  expect_wrong_usage({"--threads=0"}, "expected a whole number from 1 to 1024");
+  EXPECT_THAT(folder.Names(), UnorderedElementsAre("d.yaml", "data", "m.yaml"));
+}
+
+}  // namespace
+}  // namespace hexcal
