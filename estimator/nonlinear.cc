@@ -4,6 +4,7 @@
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
+#include "estimator/polish.h"
 #include "residuals/pose_manifold.h"
 #include "residuals/pose_residual.h"
 
@@ -100,6 +101,7 @@ Solution SolveNonlinear(const std::vector<Observation>& observations,
   solution.converged = summary.termination_type == ceres::CONVERGENCE;
   if (!solution.converged) solution.message = summary.message;
   solution.mounts = {Pose3d::FromParameters(base), Pose3d::FromParameters(tool)};
+  if (solution.converged) solution.mounts = Polish(observations, whiteners, solution.mounts);
   return solution;
 }
 

@@ -10,7 +10,7 @@ namespace hexcal {
 
 struct NonlinearOptions {
   int max_iterations = 100;
-  double tolerance = 1e-15;  // of the cost and of the parameters, relative
+  double tolerance = 1e-12;  // of the cost and of the parameters, relative; what follows is Polish
   // Called after every iteration with the number done and the largest number; for a progress bar.
   std::function<void(int, int)> after_iteration;
 };

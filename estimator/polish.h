@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "estimator/covariance.h"
+#include "estimator/observations.h"
+
+namespace hexcal {
+
+// The Gauss-Newton step from mounts: the shortest y that minimises the sum of |whitener (e + J
+// y)|^2, J by PoseErrorJacobian.
+Vector12d GaussNewtonStep(const std::vector<Observation>& observations,
+                          const std::vector<Matrix6d>& whiteners,
+                          const BaseAndTool& mounts);
+
+BaseAndTool Moved(const BaseAndTool& mounts, const Vector12d& step);
+
+// Takes a solution that has converged by its cost to where the gradient is zero to rounding. A cost
+// that is flat to 1 part in 1e15 leaves the parameters 1e-8 of a standard deviation apart, which
+// depends on the order of the rows; this does not.
+BaseAndTool Polish(const std::vector<Observation>& observations,
+                   const std::vector<Matrix6d>& whiteners,
+                   const BaseAndTool& mounts);
+
+}  // namespace hexcal
