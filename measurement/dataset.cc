@@ -144,8 +144,11 @@ Dataset ReadDataset(const std::string& path, bool needs_measurement) {
   dataset.robot_poses = ReadRobotPoses(
       map.Required("robot_poses"), ReadCovariates(map.Optional("covariates")), hexapod, context);
   if (needs_measurement || map.Has("measurement"))
-    dataset.measurement = ReadMeasurement(
-        map.Required("measurement"), dataset.robot_poses, dataset.tracker.is_static, context);
+    dataset.measurement = ReadMeasurement(map.Required("measurement"),
+                                          dataset.robot_poses,
+                                          dataset.tracker.is_static,
+                                          needs_measurement,
+                                          context);
   const std::vector<std::string> oddities = FindOddities(dataset);
   dataset.warnings.insert(dataset.warnings.end(), oddities.begin(), oddities.end());
   return dataset;

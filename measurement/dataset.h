@@ -113,7 +113,8 @@ struct Dataset {
 };
 
 // Reads the YAML file and its tables. InputError for everything docs/dataset.md calls bad.
-// With needs_measurement, a file without one is refused.
+// With needs_measurement, a file without one is refused; else its table of readings may be absent
+// too (a plan).
 Dataset ReadDataset(const std::string& path, bool needs_measurement);
 
 }  // namespace hexcal

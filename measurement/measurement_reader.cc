@@ -88,6 +88,7 @@ Measurement::Kind ReadKind(const YamlNode& node) {
 Measurement ReadMeasurement(const YamlNode& node,
                             const RobotPoses& robot_poses,
                             bool tracker_is_static,
+                            bool needs_readings,
                             const ReadContext& context) {
   const MapReader map(node, "measurement", {"kind", "file", "rows", "noise", "bodies"});
   Measurement measurement;
@@ -105,6 +106,9 @@ Measurement ReadMeasurement(const YamlNode& node,
       throw InputError(bodies->where, "bodies with kind poses", "them only with kind markers");
     if (noise != nullptr) measurement.pose_noise = ReadPoseNoise(*noise, context.units);
   }
+
+  measurement.where = map.where();
+  if (!needs_readings && !map.Has("file") && !map.Has("rows")) return measurement;
 
   TableReader table = OpenTable(map, "measurement", context);
   measurement.where = table.where();

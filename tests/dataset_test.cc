@@ -387,6 +387,21 @@ TEST(Dataset, AMeasurementMayBeAbsentForPredictions) {
             std::string::npos);
 }
 
+TEST(Dataset, APlanSaysWhatIsToBeMeasuredWithoutReadings) {
+  const TemporaryFolder folder;
+  const std::string markers = kMarkers + "  noise: {sigma: 0.1}\n";
+  std::string plan = kMillimetres + kThreePoses + markers;
+  plan.erase(plan.find("  file: markers.csv\n"), std::string("  file: markers.csv\n").size());
+  const std::string path = folder.Write("d.yaml", plan);
+  const Dataset dataset = ReadDataset(path, false);
+  EXPECT_EQ(dataset.measurement->bodies[0].markers.size(), 3u);
+  EXPECT_TRUE(dataset.measurement->marker_sigma);
+  EXPECT_TRUE(dataset.measurement->readings.empty());
+  EXPECT_TRUE(dataset.warnings.empty());
+  EXPECT_NE(InputErrorText([&] { ReadDataset(path, true); }).find("neither file: nor rows:"),
+            std::string::npos);
+}
+
 TEST(Dataset, AMissingFileIsRefused) {
   EXPECT_NE(InputErrorText([] { ReadDataset("no/such/dataset.yaml", true); }), "(no exception)");
 }
