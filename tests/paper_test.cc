@@ -34,10 +34,10 @@ const std::string kPaper = std::string(HEXCAL_EXAMPLES) + "/paper/";
 
 using Flags = std::vector<std::string>;
 
-ProgramResult Simulate(const TemporaryFolder& folder, const std::string& truth) {
+ProgramResult Simulate(const TemporaryFolder& folder, const std::string& model) {
   return RunHexcal({{"simulate",
                      kPaper + "dataset.yaml",
-                     "--model=" + kPaper + truth,
+                     "--model=" + model,
                      "--noise=0",
                      "--out=" + folder.Path("")}});
 }
@@ -118,7 +118,7 @@ TEST(Paper, TheDatasetIsTableIIThroughTheMountsOfTableI) {
 
 TEST(Paper, SimulateMakesTheMeasuredPosesAgain) {
   const TemporaryFolder folder;
-  const ProgramResult result = Simulate(folder, "truth.yaml");
+  const ProgramResult result = Simulate(folder, kPaper + "truth.yaml");
   ASSERT_EQ(result.status, kDone) << result.err;
   std::ostringstream bundled;
   bundled << std::ifstream(kPaper + "measured.csv", std::ios::binary).rdbuf();
@@ -194,7 +194,7 @@ TEST(Paper, TableIVHoldsTheErrorsInTheFormOfEq2) {
 
 TEST(Paper, ErrorsAddedByEqs44And45DoNotGiveTableIV) {
   const TemporaryFolder folder;
-  const ProgramResult simulated = Simulate(folder, "truth_eqs_44_45.yaml");
+  const ProgramResult simulated = Simulate(folder, kPaper + "truth_eqs_44_45.yaml");
   ASSERT_EQ(simulated.status, kDone) << simulated.err;
   const double difference = FromTableIV(FiveIterations("approach_first", folder.Path("paper")));
   EXPECT_GT(difference, 3.5e-5);
@@ -221,6 +221,24 @@ TEST(Paper, TheOtherModelIsTableIByEqs44And45) {
                        MakePose(updated(0.03, 0.04, 0.001), {0.007, 0.002, -0.006}),
                        1e-17,
                        1e-15));
+}
+
+// docs/paper.md: the paper's error loses the size of |R - 1| in a step, and that is 1 at 60
+// degrees.
+TEST(Paper, WithTheToolTurnedBy60DegreesOnlyTheTwistConverges) {
+  const TemporaryFolder folder;
+  const std::string model = folder.Write("turned.yaml", R"(format: hexcal/model/1
+dataset: paper
+world_from_base:    {xyz: [0.008, 0.001, -0.004], rpy: [0.02, 0.01, 0.005]}
+platform_from_tool: {xyz: [0.007, 0.002, -0.006], rpy: [1.0472, 0.04, 0.001]}
+)");
+  ASSERT_EQ(Simulate(folder, model).status, kDone);
+  const std::string dataset = folder.Path("paper");
+  const json paper =
+      Calibrate({"--solver=linearized", "--error=paper", "--iterations=40"}, kNotTrusted, dataset);
+  EXPECT_GT(paper["iterations"][40]["rmspe"], 0.1);
+  const json twist = Calibrate({"--solver=linearized", "--error=twist"}, kDone, dataset);
+  EXPECT_LT(twist["rmspe"], 1e-12);
 }
 
 }  // namespace
