@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
+
+#include "geometry/linear_algebra.h"
 
 namespace hexcal {
 namespace {
@@ -79,8 +80,7 @@ void JacobianFactor::Add(const Matrix6x12d& whitened) {
 
 void JacobianFactor::Compress() {
   rows_.bottomRows(kChunkRows - used_).setZero();
-  const Eigen::HouseholderQR<Eigen::Matrix<double, kChunkRows, 12>> qr(rows_);
-  const Matrix12d r = qr.matrixQR().topRows<12>().triangularView<Eigen::Upper>();
+  const Matrix12d r = TriangularFactor(rows_);
   rows_.topRows<12>() = r;
   used_ = 12;
 }
@@ -93,9 +93,8 @@ Matrix12d JacobianFactor::R() {
 ParameterCovariance ComputeCovariance(const Matrix12d& r_factor, const CovarianceOptions& options) {
   const Vector12d norms = r_factor.colwise().norm().transpose();
   const Vector12d unscale = norms.unaryExpr([](double n) { return n > 0 ? 1.0 / n : 1.0; });
-  const Eigen::JacobiSVD<Matrix12d> svd(r_factor * unscale.asDiagonal(),
-                                        Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vector12d s = svd.singularValues();
+  const SingularValues svd = Decompose(r_factor * unscale.asDiagonal());
+  const Vector12d s = svd.singular_values;
 
   ParameterCovariance result;
   Observability& observability = result.observability;
@@ -103,7 +102,7 @@ ParameterCovariance ComputeCovariance(const Matrix12d& r_factor, const Covarianc
   observability.condition_number = s[0] / s[11];
   observability.determined.fill(true);
   for (int k = 0; k < 12; ++k) {
-    const Vector12d scaled = svd.matrixV().col(k);
+    const Vector12d scaled = svd.v.col(k);
     Vector12d direction = unscale.asDiagonal() * scaled;
     Eigen::Index largest = 0;
     direction.cwiseAbs().maxCoeff(&largest);

@@ -3,15 +3,17 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "estimator/linearized.h"
+#include "geometry/linear_algebra.h"
 #include "residuals/whitener.h"
 
 namespace hexcal {
 namespace {
+
+constexpr double kRankThreshold = 1e-12;
 
 // Residuals this many times larger or smaller than the stated noise explains put it in doubt.
 constexpr double kDoubtfulScale = 2.0;
@@ -87,7 +89,7 @@ class Judgement {
       normal += carried.transpose() * j;
       spread += carried.transpose() * Covariance(o) * carried;
     }
-    const Matrix12d inverse = normal.completeOrthogonalDecomposition().pseudoInverse();
+    const Matrix12d inverse = PseudoInverse(normal, kRankThreshold);
     return inverse * spread * inverse.transpose();
   }
 

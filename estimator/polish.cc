@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/polish.h"
 
-#include <Eigen/QR>
 #include <limits>
+
+#include "geometry/linear_algebra.h"
 
 namespace hexcal {
 namespace {
@@ -27,10 +28,10 @@ Vector12d GaussNewtonStep(const std::vector<Observation>& observations,
     gradient.noalias() -= j.transpose() * (whiteners[i] * e);
   }
   const Vector12d scale = normal.diagonal().cwiseSqrt().cwiseInverse();
-  Eigen::CompleteOrthogonalDecomposition<Matrix12d> solver;
-  solver.setThreshold(kRankThreshold);
-  solver.compute(scale.asDiagonal() * normal * scale.asDiagonal());
-  return scale.asDiagonal() * Vector12d(solver.solve(scale.asDiagonal() * gradient));
+  return scale.asDiagonal() *
+         Vector12d(ShortestSolution(scale.asDiagonal() * normal * scale.asDiagonal(),
+                                    scale.asDiagonal() * gradient,
+                                    kRankThreshold));
 }
 
 BaseAndTool Moved(const BaseAndTool& mounts, const Vector12d& step) {

@@ -2,7 +2,10 @@
 #include "geometry/align_points.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
 
 namespace hexcal {
 namespace {
@@ -42,7 +45,11 @@ Normal Linearise(const Pose3d& a_from_b,
 double PlanarSpread(const Eigen::Matrix3Xd& points) {
   if (points.cols() < 3) return 0.0;
   const Eigen::Matrix3Xd centred = points.colwise() - points.rowwise().mean().eval();
-  return centred.jacobiSvd().singularValues()[1];
+  // By the eigenvalues of the scatter: half the digits of an SVD, which is enough for a verdict, at
+  // a tenth of its time.
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> scatter;
+  scatter.computeDirect(centred * centred.transpose(), Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(scatter.eigenvalues()[1], 0.0));
 }
 
 Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& m) {

@@ -38,12 +38,17 @@ Json CovarianceRows(const Matrix12d& covariance, const Observability& observabil
   return rows;
 }
 
-Json StandardDeviations(const Estimate& estimate) {
+Json StandardDeviations(const Matrix12d& covariance, const Observability& observability) {
   Json list = Json::array();
   for (int i = 0; i < 12; ++i)
-    list.push_back(estimate.observability.determined[i] ? Json(std::sqrt(estimate.covariance(i, i)))
-                                                        : Json());
+    list.push_back(observability.determined[i] ? Json(std::sqrt(covariance(i, i))) : Json());
   return list;
+}
+
+Matrix12d Correlation(const Matrix12d& covariance) {
+  const Vector12d scale =
+      covariance.diagonal().unaryExpr([](double v) { return v > 0 ? 1.0 / std::sqrt(v) : 0.0; });
+  return scale.asDiagonal() * covariance * scale.asDiagonal();
 }
 
 Json Iterations(const Estimate& estimate) {
@@ -79,8 +84,11 @@ Json ResultObject(const ResultHeader& header, const Estimate& estimate) {
   result["platform_from_tool"] = PoseObject(estimate.mounts.platform_from_tool);
   result["parameters"] = ParameterNames();
   result["covariance"] = CovarianceRows(estimate.covariance, observability);
-  result["standard_deviation"] = StandardDeviations(estimate);
+  result["standard_deviation"] = StandardDeviations(estimate.covariance, observability);
+  result["correlation"] = CovarianceRows(Correlation(estimate.covariance), observability);
   result["covariance_unscaled"] = CovarianceRows(estimate.covariance_unscaled, observability);
+  result["standard_deviation_unscaled"] =
+      StandardDeviations(estimate.covariance_unscaled, observability);
   result["noise"] = {{"position", estimate.noise.position},
                      {"orientation", estimate.noise.orientation},
                      {"estimated", estimate.noise.estimated}};

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "geometry/linear_algebra.h"
+
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+namespace hexcal {
+namespace {
+
+Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> Orthogonal(const Eigen::MatrixXd& m,
+                                                                   double threshold) {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  decomposition.setThreshold(threshold);
+  decomposition.compute(m);
+  return decomposition;
+}
+
+}  // namespace
+
+SingularValues Decompose(const Eigen::MatrixXd& m) {
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  return {svd.singularValues(), svd.matrixU(), svd.matrixV()};
+}
+
+Eigen::MatrixXd PseudoInverse(const Eigen::MatrixXd& m, double threshold) {
+  return Orthogonal(m, threshold).pseudoInverse();
+}
+
+Eigen::VectorXd ShortestSolution(const Eigen::MatrixXd& a,
+                                 const Eigen::VectorXd& b,
+                                 double threshold) {
+  return Orthogonal(a, threshold).solve(b);
+}
+
+Eigen::MatrixXd TriangularFactor(const Eigen::MatrixXd& a) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(a);
+  return qr.matrixQR().topRows(a.cols()).triangularView<Eigen::Upper>();
+}
+
+}  // namespace hexcal

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+namespace hexcal {
+
+// Dense decompositions behind plain functions, for any size: Eigen's templates take long to
+// compile, and longest for fixed sizes, so each is made here once. For loops over poses use Eigen's
+// own fixed-size solvers.
+
+// m = u diag(singular_values) v', full u and v, largest first.
+struct SingularValues {
+  Eigen::VectorXd singular_values;
+  Eigen::MatrixXd u, v;
+};
+SingularValues Decompose(const Eigen::MatrixXd& m);
+
+// Moore-Penrose inverse; pivots below threshold times the largest count as zero.
+Eigen::MatrixXd PseudoInverse(const Eigen::MatrixXd& m, double threshold);
+
+// The shortest x that minimises |a x - b|, with the threshold of PseudoInverse.
+Eigen::VectorXd ShortestSolution(const Eigen::MatrixXd& a,
+                                 const Eigen::VectorXd& b,
+                                 double threshold);
+
+// The upper triangular n x n factor R of a = Q R, a with n columns and at least as many rows.
+Eigen::MatrixXd TriangularFactor(const Eigen::MatrixXd& a);
+
+}  // namespace hexcal
