@@ -46,8 +46,8 @@ endfunction()
 
 # hexcal_test(pose_test LINKS hexcal::geometry): tests/pose_test.cc, its cases listed in ctest.
 function(hexcal_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINKS" ${ARGN})
-  add_executable(${name} ${name}.cc ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
+  add_executable(${name} ${name}.cc)
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
   hexcal_own(${name})

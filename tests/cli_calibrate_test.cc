@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "model/machine.h"
-#include "tests/testing/matchers.h"
-#include "tests/testing/run_program.h"
-#include "tests/testing/temporary_folder.h"
+#include "testing/matchers.h"
+#include "testing/run_program.h"
+#include "testing/temporary_folder.h"
 
 namespace hexcal {
 namespace {

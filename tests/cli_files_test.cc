@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "tests/testing/run_program.h"
-#include "tests/testing/temporary_folder.h"
+#include "testing/run_program.h"
+#include "testing/temporary_folder.h"
 
 namespace hexcal {
 namespace {

@@ -10,8 +10,8 @@
 #include "apps/command.h"
 #include "apps/flag_value.h"
 #include "apps/flags.h"
-#include "tests/testing/run_program.h"
-#include "tests/testing/temporary_folder.h"
+#include "testing/run_program.h"
+#include "testing/temporary_folder.h"
 
 namespace hexcal {
 namespace {

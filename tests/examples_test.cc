@@ -12,9 +12,9 @@
 #include "model/hexapod.h"
 #include "model/machine.h"
 #include "model/predict.h"
-#include "tests/testing/matchers.h"
-#include "tests/testing/run_program.h"
-#include "tests/testing/temporary_folder.h"
+#include "testing/matchers.h"
+#include "testing/run_program.h"
+#include "testing/temporary_folder.h"
 
 namespace hexcal {
 namespace {

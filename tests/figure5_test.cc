@@ -14,7 +14,7 @@
 #include "estimator/calibrate.h"
 #include "model/machine.h"
 #include "model/predict.h"
-#include "tests/testing/random.h"
+#include "testing/random.h"
 
 namespace hexcal {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <csignal>
 
-#include "tests/testing/temporary_folder.h"
+#include "testing/temporary_folder.h"
 
 namespace hexcal {
 namespace {

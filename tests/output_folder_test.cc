@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "config/input_error.h"
-#include "tests/testing/input_error_text.h"
-#include "tests/testing/temporary_folder.h"
+#include "testing/input_error_text.h"
+#include "testing/temporary_folder.h"
 
 namespace hexcal {
 namespace {

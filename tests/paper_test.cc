@@ -11,10 +11,10 @@
 
 #include "estimator/observations.h"
 #include "model/machine.h"
-#include "tests/testing/matchers.h"
-#include "tests/testing/run_program.h"
-#include "tests/testing/scenes.h"
-#include "tests/testing/temporary_folder.h"
+#include "testing/matchers.h"
+#include "testing/run_program.h"
+#include "testing/scenes.h"
+#include "testing/temporary_folder.h"
 
 namespace hexcal {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/testing/temporary_folder.h"
+#include "testing/temporary_folder.h"
 
 namespace hexcal::testing {
 
