@@ -71,7 +71,8 @@ class CalibrateRun {
           [this](std::size_t i) { return Work(jobs_[i].dataset); },
           [this, &progress](std::size_t i, Outcome outcome) {
             Finish(&jobs_[i], outcome);
-            progress.Update(static_cast<long>(i + 1), static_cast<long>(jobs_.size()));
+            if (i + 1 < jobs_.size())
+              progress.Update(static_cast<long>(i + 1), static_cast<long>(jobs_.size()));
           });
     }
     if (failed_ > 0) {
