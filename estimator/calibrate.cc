@@ -6,10 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "estimator/closed_form.h"
 #include "estimator/judge.h"
 #include "estimator/noise.h"
+#include "estimator/rms.h"
+#include "estimator/start.h"
 #include "residuals/whitener.h"
 
 namespace hexcal {
@@ -17,7 +21,17 @@ namespace {
 
 // Rounds of fit and noise estimate; each takes the change down by a factor of ten or more.
 constexpr int kMaxRounds = 30;
-constexpr double kRoundTolerance = 1e-11;
+// A change by this part of a sigma, or by so many roundings of the data, is none.
+constexpr double kSettled = 1e-8;
+constexpr double kRoundings = 64.0;
+// A change of less than 1e-3 sigma that no longer shrinks is rounding.
+constexpr double kStalled = 1e-3 / kSettled;
+// The iteration's update, m and rad, below which its residuals tell the noise.
+constexpr double kNear = 1e-4;
+// With more than this part of the poses' squared spread left over nothing is explained.
+constexpr double kNoFit = 0.5;
+// Misfit by which another start must be better to show that a solution is none.
+constexpr double kMuchBetter = 0.25;
 
 class Calibration {
  public:
@@ -28,7 +42,7 @@ class Calibration {
     weighting_.paper_error =
         IsLinearized() && options.linearized.error == LinearizedOptions::Error::kPaper;
     weighting_.levels_estimated = !observations.tool_noise_is_known && !options.noise;
-    if (options.noise) weighting_.levels = *options.noise;
+    weighting_.levels = options.noise.value_or(Spread(observations.items));
   }
 
   Estimate Run() {
@@ -39,8 +53,12 @@ class Calibration {
     estimate_.mounts = FirstGuess();
     if (weighting_.paper_error)
       FitAsThePaper();
+    else if (IsLinearized())
+      FitByTwist();
     else
-      FitWeighted();
+      FitNonlinear();
+    if (estimate_.converged) RefuseBadFit();
+    if (!estimate_.converged && weighting_.levels_estimated) TakeResidualsAsNoise();
     Judge(observations_, weighting_, &estimate_);
     return std::move(estimate_);
   }
@@ -48,13 +66,17 @@ class Calibration {
  private:
   bool IsLinearized() const { return options_.solver == Solver::kLinearized; }
 
-  BaseAndTool FirstGuess() const {
+  Start ChosenStart() const {
     const Start usual = !IsLinearized() ? Start::kClosedForm
                         : initial_      ? Start::kInitial
                                         : Start::kIdentity;
-    switch (options_.start.value_or(usual)) {
+    return options_.start.value_or(usual);
+  }
+
+  BaseAndTool FirstGuess() const {
+    switch (ChosenStart()) {
       case Start::kClosedForm:
-        return BestClosedForm(observations_.items);
+        return FindStart(observations_.items);
       case Start::kShah:
         return SolveClosedForm(ClosedForm::kShah, observations_.items);
       case Start::kParkMartin:
@@ -68,52 +90,97 @@ class Calibration {
     return {};
   }
 
+  // Equal weights do not follow the noise; the covariance does.
   void FitAsThePaper() {
     Take(SolveLinearized(observations_.items, {}, estimate_.mounts, options_.linearized));
-    if (!weighting_.levels_estimated) return;
-    std::vector<Matrix6d> error_derivatives;
-    for (const Observation& o : observations_.items)
-      error_derivatives.push_back(
-          PaperErrorDerivative(estimate_.mounts.world_from_base * o.base_from_platform *
-                               estimate_.mounts.platform_from_tool));
-    weighting_.levels =
-        EstimateNoiseOfEqualWeights(observations_, estimate_.mounts, error_derivatives);
+    if (weighting_.levels_estimated)
+      weighting_.levels =
+          EstimateNoise(observations_, estimate_.mounts, Spread(observations_.items));
   }
 
   // Weights follow the noise and (through the robot's noise) the tool; both follow the fit: in
-  // turn, until nothing moves.
-  void FitWeighted() {
-    const bool weights_move = weighting_.levels_estimated || observations_.has_robot_noise;
-    if (weighting_.levels_estimated) {
-      if (IsLinearized())
-        Take(SolveLinearized(observations_.items, {}, estimate_.mounts, options_.linearized));
-      weighting_.levels = RoughNoise(observations_, estimate_.mounts);
-    }
+  // turn, until nothing moves but rounding.
+  void FitNonlinear() {
+    double last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kMaxRounds; ++round) {
       const BaseAndTool mounts = estimate_.mounts;
       const NoiseLevels levels = weighting_.levels;
-      Take(SolveOnce());
-      if (!estimate_.converged || !weights_move) return;
-      if (weighting_.levels_estimated)
-        weighting_.levels = EstimateNoise(observations_, estimate_.mounts, levels);
-      if (round > 0 && Change(mounts, levels) < kRoundTolerance) return;
+      Take(SolveNonlinear(observations_.items, Whiteners(), mounts, options_.nonlinear));
+      EstimateLevels();
+      if (!estimate_.converged || !WeightsMove()) return;
+      const double change = Change(mounts, levels);
+      if (round > 0 && (change < 1.0 || (change < kStalled && change > 0.5 * last))) return;
+      last = change;
     }
     estimate_.converged = false;
     estimate_.message = fmt::format("the weights did not settle within {} rounds", kMaxRounds);
   }
 
-  Solution SolveOnce() const {
+  // The same with the weights moved along at every iteration, once the first ones have brought it
+  // near.
+  void FitByTwist() {
+    LinearizedOptions options = options_.linearized;
+    if (WeightsMove()) options.tolerance = std::max(options.tolerance, kNear);
+    Take(SolveLinearized(observations_.items, Whiteners(), estimate_.mounts, options));
+    NoiseLevels levels = weighting_.levels;
+    EstimateLevels();
+    if (!estimate_.converged || !WeightsMove()) return;
+    options.tolerance = options_.linearized.tolerance;
+    const int at_most = std::exchange(options.max_iterations, 1);
+    do {
+      if (static_cast<int>(estimate_.iterations.size()) > at_most) {
+        estimate_.converged = false;
+        estimate_.message = fmt::format("the weights did not settle within {} iterations", at_most);
+        return;
+      }
+      levels = weighting_.levels;
+      Take(SolveLinearized(observations_.items, Whiteners(), estimate_.mounts, options));
+      EstimateLevels();
+    } while (!estimate_.converged || Change(estimate_.mounts, levels) >= 1.0);
+  }
+
+  bool WeightsMove() const { return weighting_.levels_estimated || observations_.has_robot_noise; }
+
+  void EstimateLevels() {
+    if (weighting_.levels_estimated)
+      weighting_.levels = EstimateNoise(observations_, estimate_.mounts, weighting_.levels);
+  }
+
+  std::vector<Matrix6d> Whiteners() const {
     std::vector<Matrix6d> whiteners;
     whiteners.reserve(observations_.items.size());
     for (const Observation& o : observations_.items)
       whiteners.push_back(WhitenerOf(ErrorCovariance(
           o, observations_, estimate_.mounts.platform_from_tool, weighting_.levels)));
-    if (!IsLinearized())
-      return SolveNonlinear(observations_.items, whiteners, estimate_.mounts, options_.nonlinear);
-    LinearizedOptions options = options_.linearized;
-    const int used = std::max(0, static_cast<int>(estimate_.iterations.size()) - 1);
-    options.max_iterations = std::max(0, options.max_iterations - used);
-    return SolveLinearized(observations_.items, whiteners, estimate_.mounts, options);
+    return whiteners;
+  }
+
+  // Where there is no solution, all that is left over is noise.
+  void TakeResidualsAsNoise() {
+    RmsError rms;
+    for (const Observation& o : observations_.items)
+      rms.Add(PoseError(estimate_.mounts, o.base_from_platform, o.world_from_tool));
+    const NoiseLevels rounding = Rounding(observations_.items);
+    weighting_.levels = {std::max(rms.Position() / std::sqrt(3.0), rounding.position),
+                         std::max(rms.Orientation() / std::sqrt(3.0), rounding.orientation)};
+  }
+
+  // What has converged may still be no solution.
+  void RefuseBadFit() {
+    const auto& rows = observations_.items;
+    const Misfit misfit = MisfitOf(rows, estimate_.mounts);
+    if (misfit.position > kNoFit && misfit.orientation > kNoFit)
+      Refuse(
+          "no base and tool explain how the poses move: they hardly do, some are grossly wrong, or "
+          "units, rotations or the order of the rows are");
+    else if (ChosenStart() != Start::kClosedForm &&
+             MisfitOf(rows, FindStart(rows)).Total() < kMuchBetter * misfit.Total())
+      Refuse("it ended in a local minimum: --start=closed_form finds a better one");
+  }
+
+  void Refuse(const char* message) {
+    estimate_.converged = false;
+    estimate_.message = message;
   }
 
   // The records of a later round begin at the end of the one before.
@@ -121,24 +188,29 @@ class Calibration {
     estimate_.mounts = solution.mounts;
     estimate_.converged = solution.converged;
     estimate_.message = solution.message;
-    const std::size_t skip = estimate_.iterations.empty() ? 0 : 1;
+    const std::ptrdiff_t skip = estimate_.iterations.empty() ? 0 : 1;
     estimate_.iterations.insert(
         estimate_.iterations.end(), solution.iterations.begin() + skip, solution.iterations.end());
   }
 
-  // Of the mounts, m and rad, and of the noise levels, a thousandth of their ratio.
+  // Of mounts and noise levels since then; below 1 it does not matter.
   double Change(const BaseAndTool& mounts, const NoiseLevels& levels) const {
-    const auto moved = [](const Pose3d& a, const Pose3d& b) {
-      return Minus(a, b).cwiseAbs().maxCoeff();
-    };
-    const double of_mounts =
-        std::max(moved(estimate_.mounts.world_from_base, mounts.world_from_base),
-                 moved(estimate_.mounts.platform_from_tool, mounts.platform_from_tool));
-    if (!weighting_.levels_estimated) return of_mounts;
-    const auto ratio = [](double a, double b) { return 1e-3 * std::abs(a / b - 1.0); };
-    return std::max({of_mounts,
-                     ratio(weighting_.levels.position, levels.position),
-                     ratio(weighting_.levels.orientation, levels.orientation)});
+    const Matrix6d c = ErrorCovariance(observations_.items[0],
+                                       observations_,
+                                       estimate_.mounts.platform_from_tool,
+                                       weighting_.levels);
+    const NoiseLevels rounding = Rounding(observations_.items);
+    const double metre = std::max(kSettled * std::sqrt(c.diagonal().head<3>().mean()),
+                                  kRoundings * rounding.position);
+    const double radian = std::max(kSettled * std::sqrt(c.diagonal().tail<3>().mean()),
+                                   kRoundings * rounding.orientation);
+    const Vector6d base = Minus(estimate_.mounts.world_from_base, mounts.world_from_base);
+    const Vector6d tool = Minus(estimate_.mounts.platform_from_tool, mounts.platform_from_tool);
+    const Vector6d moved = base.cwiseAbs().cwiseMax(tool.cwiseAbs());
+    return std::max({moved.head<3>().maxCoeff() / metre,
+                     moved.tail<3>().maxCoeff() / radian,
+                     std::abs(weighting_.levels.position - levels.position) / metre,
+                     std::abs(weighting_.levels.orientation - levels.orientation) / radian});
   }
 
   const Observations& observations_;

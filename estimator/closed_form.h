@@ -15,13 +15,13 @@ enum class ClosedForm {
   kShah,        // Kronecker product and SVD: M. Shah, J. Mechanisms Robotics 5 (2013)
   kParkMartin,  // rotation vectors of relative motions: Park and Martin, IEEE T-RA 10 (1994), here
                 // for AX = YB
+  kPositions,   // the base's rotation from the positions alone, as if the tool stood in A
 };
 
 BaseAndTool SolveClosedForm(ClosedForm method, const std::vector<Observation>& observations);
 
-// The start of the iterative solvers: the best, by the misfit that is left, of both closed forms,
-// of the rotation that the positions alone ask for, and, where all rotations share one axis, of a
-// scan about it.
-BaseAndTool BestClosedForm(const std::vector<Observation>& observations);
+// The tool's rotation and both translations that fit best with this rotation of the base.
+BaseAndTool CompleteBase(const std::vector<Observation>& observations,
+                         const Eigen::Matrix3d& base_rotation);
 
 }  // namespace hexcal

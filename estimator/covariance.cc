@@ -22,52 +22,59 @@ std::string Vector3Text(const Eigen::Vector3d& v) {
   return fmt::format("[{} {} {}]", round(v.x()), round(v.y()), round(v.z()));
 }
 
-// A direction in m and rad, as a sentence for the person who must choose the next poses.
-std::string DescribeDirection(const Vector12d& direction) {
-  const Eigen::Vector3d base_shift = direction.segment<3>(0), base_turn = direction.segment<3>(3);
-  const Eigen::Vector3d tool_shift = direction.segment<3>(6), tool_turn = direction.segment<3>(9);
-  const double shift = std::max(base_shift.norm(), tool_shift.norm());
-  const double turn = std::max(base_turn.norm(), tool_turn.norm());
+// The parameters that a direction moves, the largest as 1.
+std::string PartsText(const Vector12d& direction) {
   const double largest = direction.cwiseAbs().maxCoeff();
   std::string parts;
   for (int i = 0; i < 12; ++i)
     if (std::abs(direction[i]) > kNamedShare * largest)
       parts += fmt::format(
           "{}{} {:+.3f}", parts.empty() ? "" : ", ", kParameters[i].name, direction[i] / largest);
-  const bool shifts_only = turn < kNamedShare * shift;
-  if (shifts_only && base_shift.norm() > 0.5 * shift && tool_shift.norm() > 0.5 * shift)
-    return fmt::format(
-        "a shift of the base along {} of frame base against the tool along {} of frame tool ({}): "
-        "no rotation in the "
-        "data tilts this axis; measure poses that do",
-        Vector3Text(base_shift.normalized()),
-        Vector3Text(tool_shift.normalized()),
-        parts);
-  if (shifts_only)
-    return fmt::format(
-        "a shift of base and tool that leaves every predicted pose as it is ({}): measure poses "
-        "with larger "
-        "rotations about more than one axis",
-        parts);
+  return parts;
+}
+
+// A direction in m and rad, in words.
+std::string DescribeDirection(const Vector12d& direction) {
+  const Eigen::Vector3d base_shift = direction.segment<3>(0), base_turn = direction.segment<3>(3);
+  const Eigen::Vector3d tool_shift = direction.segment<3>(6), tool_turn = direction.segment<3>(9);
+  const double shift = std::max(base_shift.norm(), tool_shift.norm());
+  const double turn = std::max(base_turn.norm(), tool_turn.norm());
+  const std::string parts = PartsText(direction);
+  if (turn >= kNamedShare * shift)
+    return fmt::format("a turn of base and tool together ({})", parts);
+  if (std::min(base_shift.norm(), tool_shift.norm()) <= 0.5 * shift)
+    return fmt::format("a shift of base and tool together ({})", parts);
   return fmt::format(
-      "a turn of base and tool together that leaves every predicted pose as it is ({}): measure "
-      "poses "
-      "with larger rotations about more than one axis",
+      "a shift of the base along {} of frame base against the tool along {} of frame tool ({})",
+      Vector3Text(base_shift.normalized()),
+      Vector3Text(tool_shift.normalized()),
       parts);
 }
 
-bool IsNull(double singular_value,
-            double largest,
-            const Vector12d& one_sigma,
-            const CovarianceOptions& options) {
-  if (!(singular_value > options.smallest_ratio * largest)) return true;
-  if (singular_value < 3.0 * options.robot_orientation_noise_rad) return true;
+// Why a direction is not determined, and what to do, for the person who must choose the next poses;
+// empty where it is.
+std::string WhyNull(double singular_value,
+                    double largest,
+                    const Vector12d& one_sigma,
+                    const CovarianceOptions& options) {
+  if (!(singular_value > options.smallest_ratio * largest))
+    return "it leaves every predicted pose as it is: measure poses with rotations about more than "
+           "one axis";
+  if (singular_value < 3.0 * options.robot_orientation_noise_rad)
+    return "the rotations that tell it are no larger than the robot's orientation noise: measure "
+           "poses with larger rotations about more than one axis";
   for (int i = 0; i < 12; ++i) {
-    const double limit =
-        kParameters[i].is_angle ? options.largest_sigma_rad : options.largest_sigma_m;
-    if (!(std::abs(one_sigma[i]) <= limit)) return true;
+    const bool is_angle = kParameters[i].is_angle;
+    const double sigma = options.noise_scale * std::abs(one_sigma[i]);
+    if (!(sigma <= (is_angle ? options.largest_sigma_rad : options.largest_sigma_m)))
+      return fmt::format(
+          "the noise leaves {} open by {:.2g} {}: measure poses with larger rotations about more "
+          "than one axis, or with less noise",
+          kParameters[i].name,
+          sigma,
+          is_angle ? "rad" : "m");
   }
-  return false;
+  return "";
 }
 
 }  // namespace
@@ -107,9 +114,9 @@ ParameterCovariance ComputeCovariance(const Matrix12d& r_factor, const Covarianc
     Eigen::Index largest = 0;
     direction.cwiseAbs().maxCoeff(&largest);
     if (direction[largest] < 0) direction = -direction;  // either sign is the same direction
-    if (IsNull(s[k], s[0], direction / s[k], options)) {
+    if (const std::string why = WhyNull(s[k], s[0], direction / s[k], options); !why.empty()) {
       ++observability.null_directions;
-      observability.weak_directions.push_back(DescribeDirection(direction));
+      observability.weak_directions.push_back(DescribeDirection(direction) + ", since " + why);
       for (int i = 0; i < 12; ++i)
         if (std::abs(scaled[i]) > kRoundingShare) observability.determined[i] = false;
     } else {

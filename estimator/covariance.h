@@ -51,6 +51,8 @@ struct CovarianceOptions {
   // anything.
   double largest_sigma_m = 1.0;
   double largest_sigma_rad = 0.5;
+  // How many times larger than the stated noise the residuals are; at least 1.
+  double noise_scale = 1.0;
   // Orientation noise of the reported robot poses, rad: what rotations of this size tell is told by
   // noise.
   double robot_orientation_noise_rad = 0.0;

@@ -7,13 +7,12 @@
 #include <cmath>
 
 #include "estimator/linearized.h"
-#include "geometry/linear_algebra.h"
+#include "estimator/normal_matrix.h"
+#include "estimator/rms.h"
 #include "residuals/whitener.h"
 
 namespace hexcal {
 namespace {
-
-constexpr double kRankThreshold = 1e-12;
 
 // Residuals this many times larger or smaller than the stated noise explains put it in doubt.
 constexpr double kDoubtfulScale = 2.0;
@@ -37,17 +36,18 @@ class Judgement {
 
   void SetResiduals() {
     const double n = static_cast<double>(observations_.items.size());
-    Vector6d mean_square = Vector6d::Zero(), mean_variance = Vector6d::Zero();
+    RmsError rms;
+    Vector6d mean_variance = Vector6d::Zero();
     for (const Observation& o : observations_.items) {
       const Vector6d e = PoseError(estimate_.mounts, o.base_from_platform, o.world_from_tool);
       const Matrix6d c = Covariance(o);
       estimate_.poses.push_back({o.label, 1.0, e});
       estimate_.chi_square += (WhitenerOf(c) * e).squaredNorm();
-      mean_square += e.cwiseAbs2() / n;
+      rms.Add(e);
       mean_variance += c.diagonal() / n;
     }
-    estimate_.rmspe = std::sqrt(mean_square.head<3>().sum());
-    estimate_.rmsoe = std::sqrt(mean_square.tail<3>().sum());
+    estimate_.rmspe = rms.Position();
+    estimate_.rmsoe = rms.Orientation();
     if (weighting_.paper_error) {  // Eq. (42) over the paper's own differences
       estimate_.rmspe = estimate_.iterations.back().rmspe;
       estimate_.rmsoe = estimate_.iterations.back().rmsoe;
@@ -59,11 +59,8 @@ class Judgement {
 
   void SetCovariance() {
     JacobianFactor factor;
-    for (const Observation& o : observations_.items) {
-      const Vector6d e = PoseError(estimate_.mounts, o.base_from_platform, o.world_from_tool);
-      const Pose3d base_from_tool = o.base_from_platform * estimate_.mounts.platform_from_tool;
-      factor.Add(WhitenerOf(Covariance(o)) * PoseErrorJacobian(e, base_from_tool));
-    }
+    for (const Observation& o : observations_.items)
+      factor.Add(WhitenerOf(Covariance(o)) * Linearise(o, estimate_.mounts).jacobian);
     ParameterCovariance result = ComputeCovariance(factor.R(), Limits());
     estimate_.observability = result.observability;
     if (weighting_.paper_error) result.covariance = PaperCovariance();
@@ -71,7 +68,9 @@ class Judgement {
     const int parameters = 12 - result.observability.null_directions;
     estimate_.degrees_of_freedom = 6 * static_cast<int>(observations_.items.size()) - parameters;
     estimate_.noise_scale = std::sqrt(estimate_.chi_square / estimate_.degrees_of_freedom);
-    const double scale = weighting_.levels_estimated ? std::pow(estimate_.noise_scale, 2) : 1.0;
+    // The paper's estimator leaves more than the noise; its covariance knows that already.
+    const bool is_scaled = weighting_.levels_estimated && !weighting_.paper_error;
+    const double scale = is_scaled ? std::pow(estimate_.noise_scale, 2) : 1.0;
     const Matrix12d common = CommonTrackerCovariance();
     estimate_.covariance_unscaled = result.covariance + common;
     estimate_.covariance = scale * result.covariance + common;
@@ -81,6 +80,7 @@ class Judgement {
   // of e: y = (J'SJ)^-1 J'S e, and its covariance follows from that of e.
   Matrix12d PaperCovariance() const {
     Matrix12d normal = Matrix12d::Zero(), spread = Matrix12d::Zero();
+    Vector12d squared_norms = Vector12d::Zero();
     for (const Observation& o : observations_.items) {
       const Pose3d base_from_tool = o.base_from_platform * estimate_.mounts.platform_from_tool;
       const Matrix6x12d j = PaperJacobian(base_from_tool);
@@ -88,8 +88,9 @@ class Judgement {
           PaperErrorDerivative(estimate_.mounts.world_from_base * base_from_tool).transpose() * j;
       normal += carried.transpose() * j;
       spread += carried.transpose() * Covariance(o) * carried;
+      squared_norms += j.colwise().squaredNorm().transpose();
     }
-    const Matrix12d inverse = PseudoInverse(normal, kRankThreshold);
+    const Matrix12d inverse = InverseOfNormal(normal, squared_norms.cwiseSqrt());
     return inverse * spread * inverse.transpose();
   }
 
@@ -106,6 +107,9 @@ class Judgement {
       orientation_variance += o.robot_covariance.diagonal().tail<3>().mean();
     }
     options.largest_sigma_m = size;
+    if (!weighting_.levels_estimated)
+      options.noise_scale = std::max(
+          1.0, std::sqrt(estimate_.chi_square / (6.0 * observations_.items.size() - 12.0)));
     if (observations_.has_robot_noise)
       options.robot_orientation_noise_rad =
           std::sqrt(orientation_variance / observations_.items.size());
@@ -128,15 +132,16 @@ class Judgement {
     if (!estimate_.converged) warnings.push_back("no convergence: " + estimate_.message);
     for (const std::string& direction : estimate_.observability.weak_directions)
       warnings.push_back("the data do not determine " + direction);
-    if (weighting_.levels_estimated) return;
+    // Nothing was stated that could be doubted.
+    if (weighting_.levels_estimated && !observations_.has_robot_noise) return;
     if (estimate_.noise_scale > kDoubtfulScale)
       warnings.push_back(
-          fmt::format("the residuals are {:.1f} times larger than the stated noise explains: the "
+          fmt::format("the residuals are {:.3g} times larger than the stated noise explains: the "
                       "noise is larger, or the model misses something",
                       estimate_.noise_scale));
     if (estimate_.noise_scale < 1.0 / kDoubtfulScale)
       warnings.push_back(
-          fmt::format("the residuals are {:.1f} times smaller than the stated noise: it is too "
+          fmt::format("the residuals are {:.3g} times smaller than the stated noise: it is too "
                       "large, and so are the standard deviations",
                       1.0 / estimate_.noise_scale));
   }

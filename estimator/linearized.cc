@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 #include "config/units.h"
+#include "estimator/rms.h"
 #include "geometry/align_points.h"
+#include "geometry/linear_algebra.h"
 #include "geometry/rotation_angles.h"
 
 namespace hexcal {
@@ -15,6 +17,9 @@ namespace {
 
 using Error = LinearizedOptions::Error;
 using UnitMagnitude = LinearizedOptions::UnitMagnitude;
+
+// Updates as small as this many roundings of the data never get smaller.
+constexpr double kRoundings = 64.0;
 
 // Columns of a rotation, the first two axes of order kept as far as may be.
 Eigen::Matrix3d Orthogonalise(const Eigen::Matrix3d& m, int first, int second) {
@@ -95,29 +100,34 @@ class Iteration {
       : observations_(observations),
         weights_(weights),
         options_(options),
+        tolerance_(std::max(options.tolerance, kRoundings * Rounding(observations).position)),
         base_(start.world_from_base),
         tool_(start.platform_from_tool) {}
 
   Solution Run() {
     Solution solution;
     solution.iterations.push_back(BuildEquations());
+    double update = 0.0;
     for (int k = 0; k < options_.max_iterations && !solution.converged; ++k) {
-      const Eigen::Matrix<double, 12, 1> y = SolveEquations();
+      const Vector12d y = SolveEquations();
+      const Transform base = base_, tool = tool_;
       Update(y);
-      solution.iterations.push_back(BuildEquations());
-      if (!y.allFinite() || !std::isfinite(solution.iterations.back().cost)) {
+      const IterationRecord record = BuildEquations();
+      if (!y.allFinite() || !std::isfinite(record.cost)) {
+        base_ = base, tool_ = tool;
         solution.message = fmt::format("the iteration left the range of numbers at step {}", k + 1);
-        return solution;
+        break;
       }
-      solution.converged = y.cwiseAbs().maxCoeff() < options_.tolerance;
-      last_update_ = y.cwiseAbs().maxCoeff();
+      solution.iterations.push_back(record);
+      update = y.cwiseAbs().maxCoeff();
+      solution.converged = update <= tolerance_;
     }
-    if (!solution.converged)
+    if (!solution.converged && solution.message.empty())
       solution.message = fmt::format(
           "the last of {} updates was still {:.3g} (m or rad), above the tolerance {:.3g}",
           options_.max_iterations,
-          last_update_,
-          options_.tolerance);
+          update,
+          tolerance_);
     solution.mounts = {base_.ToPose(), tool_.ToPose()};
     return solution;
   }
@@ -128,21 +138,17 @@ class Iteration {
     const auto n = static_cast<Eigen::Index>(observations_.size());
     x_.resize(6 * n);
     j_.resize(6 * n, 12);
-    IterationRecord record;
+    RmsError rms;
     for (Eigen::Index i = 0; i < n; ++i) {
       const Observation& o = observations_[i];
       const Transform u = Transform(o.base_from_platform) * tool_;
       const Vector6d x = ErrorOf(o, u);
-      record.rmspe += x.head<3>().squaredNorm() / n;
-      record.rmsoe += x.tail<3>().squaredNorm() / n;
+      rms.Add(x);
       x_.segment<6>(6 * i) = weights_.empty() ? x : Vector6d(weights_[i] * x);
       j_.middleRows<6>(6 * i) =
           weights_.empty() ? JacobianOf(u) : Matrix6x12d(weights_[i] * JacobianOf(u));
     }
-    record.cost = 0.5 * x_.squaredNorm();
-    record.rmspe = std::sqrt(record.rmspe);
-    record.rmsoe = std::sqrt(record.rmsoe);
-    return record;
+    return {0.5 * x_.squaredNorm(), rms.Position(), rms.Orientation()};
   }
 
   Vector6d ErrorOf(const Observation& o, const Transform& u) const {
@@ -153,15 +159,13 @@ class Iteration {
 
   // Shortest least-squares solution with the columns scaled; a direction that the data do not
   // determine is left alone.
-  Eigen::Matrix<double, 12, 1> SolveEquations() const {
-    const Eigen::Matrix<double, 12, 1> scale = j_.colwise().norm().transpose().cwiseInverse();
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-    solver.setThreshold(CovarianceOptions().smallest_ratio);
-    solver.compute(j_ * scale.asDiagonal());
-    return scale.asDiagonal() * Eigen::VectorXd(solver.solve(x_));
+  Vector12d SolveEquations() const {
+    const Vector12d scale = j_.colwise().norm().transpose().cwiseInverse();
+    return scale.asDiagonal() *
+           ShortestSolution(j_ * scale.asDiagonal(), x_, CovarianceOptions().smallest_ratio);
   }
 
-  void Update(const Eigen::Matrix<double, 12, 1>& y) {
+  void Update(const Vector12d& y) {
     const Vector6d base_step = y.head<6>(), tool_step = y.tail<6>();
     if (options_.error == Error::kPaper) {
       base_ = PaperUpdate(base_, base_step, options_.unit_magnitude);
@@ -175,10 +179,10 @@ class Iteration {
   const std::vector<Observation>& observations_;
   const std::vector<Matrix6d>& weights_;
   const LinearizedOptions& options_;
+  double tolerance_;
   Transform base_, tool_;
   Eigen::VectorXd x_;
   Eigen::MatrixXd j_;
-  double last_update_ = 0.0;
 };
 
 }  // namespace

@@ -29,7 +29,7 @@ struct LinearizedOptions {
   Error error = Error::kTwist;
   UnitMagnitude unit_magnitude = UnitMagnitude::kApproachFirst;
   int max_iterations = 20;   // the paper's Section 7
-  double tolerance = 1e-12;  // of the largest update, m and rad
+  double tolerance = 1e-12;  // of the largest update, m and rad; never below the data's rounding
 };
 
 // weights: the whitener of each observation, or empty for equal weights (1 m against 1 rad) as in

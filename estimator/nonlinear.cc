@@ -5,11 +5,15 @@
 #include <glog/logging.h>
 
 #include "estimator/polish.h"
+#include "estimator/rms.h"
 #include "residuals/pose_manifold.h"
 #include "residuals/pose_residual.h"
 
 namespace hexcal {
 namespace {
+
+// Of the cost: where weights are steep, its rounding keeps Ceres from seeing that it has converged.
+constexpr double kNothing = 1e-9;
 
 // Writes down the RMS errors of every accepted or refused step.
 class Recorder : public ceres::IterationCallback {
@@ -27,16 +31,10 @@ class Recorder : public ceres::IterationCallback {
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
     const BaseAndTool mounts{Pose3d::FromParameters(base_), Pose3d::FromParameters(tool_)};
-    IterationRecord record;
-    record.cost = summary.cost;
-    for (const Observation& o : observations_) {
-      const Vector6d e = PoseError(mounts, o.base_from_platform, o.world_from_tool);
-      record.rmspe += e.head<3>().squaredNorm() / observations_.size();
-      record.rmsoe += e.tail<3>().squaredNorm() / observations_.size();
-    }
-    record.rmspe = std::sqrt(record.rmspe);
-    record.rmsoe = std::sqrt(record.rmsoe);
-    records_->push_back(record);
+    RmsError rms;
+    for (const Observation& o : observations_)
+      rms.Add(PoseError(mounts, o.base_from_platform, o.world_from_tool));
+    records_->push_back({summary.cost, rms.Position(), rms.Orientation()});
     if (options_.after_iteration)
       options_.after_iteration(summary.iteration, options_.max_iterations);
     return ceres::SOLVER_CONTINUE;
@@ -49,6 +47,18 @@ class Recorder : public ceres::IterationCallback {
   const NonlinearOptions& options_;
   std::vector<IterationRecord>* records_;
 };
+
+// Ceres complains at length on stderr of what is not.
+bool IsFinite(const std::vector<Observation>& observations,
+              const std::vector<Matrix6d>& whiteners,
+              const BaseAndTool& mounts) {
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const Observation& o = observations[i];
+    const Vector6d e = PoseError(mounts, o.base_from_platform, o.world_from_tool);
+    if (!std::isfinite((whiteners[i] * e).squaredNorm())) return false;
+  }
+  return true;
+}
 
 ceres::Solver::Options SolverOptions(const NonlinearOptions& options) {
   ceres::Solver::Options solver;
@@ -75,6 +85,13 @@ Solution SolveNonlinear(const std::vector<Observation>& observations,
                         const BaseAndTool& start,
                         const NonlinearOptions& options) {
   CHECK_EQ(observations.size(), whiteners.size());
+  Solution solution;
+  if (!IsFinite(observations, whiteners, start)) {
+    solution.mounts = start;
+    solution.message = "the weighted errors at the start are beyond the range of numbers";
+    solution.iterations.emplace_back();
+    return solution;
+  }
   double base[Pose3d::kNumParameters], tool[Pose3d::kNumParameters];
   start.world_from_base.ToParameters(base);
   start.platform_from_tool.ToParameters(tool);
@@ -92,15 +109,16 @@ Solution SolveNonlinear(const std::vector<Observation>& observations,
         base,
         tool);
 
-  Solution solution;
   Recorder recorder(observations, base, tool, options, &solution.iterations);
   ceres::Solver::Options solver_options = SolverOptions(options);
   solver_options.callbacks.push_back(&recorder);
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options, &problem, &summary);
-  solution.converged = summary.termination_type == ceres::CONVERGENCE;
-  if (!solution.converged) solution.message = summary.message;
   solution.mounts = {Pose3d::FromParameters(base), Pose3d::FromParameters(tool)};
+  solution.converged =
+      summary.termination_type == ceres::CONVERGENCE ||
+      StepFrom(observations, whiteners, solution.mounts).decrease < kNothing * summary.final_cost;
+  if (!solution.converged) solution.message = summary.message;
   if (solution.converged) solution.mounts = Polish(observations, whiteners, solution.mounts);
   return solution;
 }

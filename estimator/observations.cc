@@ -1,10 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/observations.h"
 
+#include <algorithm>
+#include <limits>
+
+#include "geometry/align_points.h"
 #include "measurement/tool_pose.h"
 #include "model/predict.h"
 
 namespace hexcal {
+namespace {
+
+// A spread below this part of the distances, or below this angle, rad, is none.
+constexpr double kNoSpread = 1e-3;
+
+// Root mean square distance from the mean.
+double SpreadOf(const Eigen::Matrix3Xd& points) {
+  const Eigen::Vector3d mean = points.rowwise().mean();
+  return std::sqrt((points.colwise() - mean).colwise().squaredNorm().mean());
+}
+
+}  // namespace
 
 Observations MakeObservations(const Dataset& dataset) {
   const std::vector<Pose3d> base_from_platform = ReportedPoses(dataset);
@@ -47,6 +63,41 @@ Matrix6d ErrorCovariance(const Observation& observation,
     covariance += carry * observation.robot_covariance * carry.transpose();
   }
   return covariance;
+}
+
+LinearisedError Linearise(const Observation& observation, const BaseAndTool& mounts) {
+  const Vector6d error =
+      PoseError(mounts, observation.base_from_platform, observation.world_from_tool);
+  return {error,
+          PoseErrorJacobian(error, observation.base_from_platform * mounts.platform_from_tool)};
+}
+
+NoiseLevels Spread(const std::vector<Observation>& observations) {
+  const auto n = static_cast<Eigen::Index>(observations.size());
+  Eigen::Matrix3Xd in_world(3, n), in_base(3, n);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    in_world.col(i) = observations[i].world_from_tool.translation;
+    in_base.col(i) = observations[i].base_from_platform.translation;
+    sum += observations[i].world_from_tool.rotation.toRotationMatrix();
+  }
+  const Eigen::Quaterniond mean(NearestRotation(sum));
+  double squared = 0.0;
+  for (const Observation& o : observations)
+    squared += Log(Eigen::Quaterniond(mean.conjugate() * o.world_from_tool.rotation)).squaredNorm();
+  const double position = std::max(
+      {SpreadOf(in_world), SpreadOf(in_base), kNoSpread * in_base.colwise().norm().maxCoeff()});
+  return {position > 0 ? position : 1.0,
+          std::max(std::sqrt(squared / static_cast<double>(n)), kNoSpread)};
+}
+
+NoiseLevels Rounding(const std::vector<Observation>& observations) {
+  double size = 0.0;
+  for (const Observation& o : observations)
+    size = std::max(
+        {size, o.world_from_tool.translation.norm(), o.base_from_platform.translation.norm()});
+  const double epsilon = std::numeric_limits<double>::epsilon();
+  return {epsilon * (size > 0 ? size : 1.0), epsilon};
 }
 
 }  // namespace hexcal

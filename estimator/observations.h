@@ -51,4 +51,18 @@ Matrix6d ErrorCovariance(const Observation& observation,
                          const Pose3d& platform_from_tool,
                          const NoiseLevels& levels);
 
+// The pose error of an observation, not whitened, and its exact derivative by the 12 parameters.
+struct LinearisedError {
+  Vector6d error;
+  Matrix6x12d jacobian;
+};
+LinearisedError Linearise(const Observation& observation, const BaseAndTool& mounts);
+
+// How far the poses spread, m and rad: weights of position against orientation that need no fit.
+// Never zero.
+NoiseLevels Spread(const std::vector<Observation>& observations);
+
+// The rounding of the data, m and rad: nothing below it means anything.
+NoiseLevels Rounding(const std::vector<Observation>& observations);
+
 }  // namespace hexcal

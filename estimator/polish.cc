@@ -3,35 +3,28 @@
 
 #include <limits>
 
-#include "geometry/linear_algebra.h"
+#include "estimator/normal_matrix.h"
 
 namespace hexcal {
 namespace {
 
 constexpr int kMaxSteps = 10;
-// Of the normal matrix with unit diagonal: the square of CovarianceOptions::smallest_ratio.
-constexpr double kRankThreshold = 1e-12;
 
 }  // namespace
 
-Vector12d GaussNewtonStep(const std::vector<Observation>& observations,
-                          const std::vector<Matrix6d>& whiteners,
-                          const BaseAndTool& mounts) {
+GaussNewtonStep StepFrom(const std::vector<Observation>& observations,
+                         const std::vector<Matrix6d>& whiteners,
+                         const BaseAndTool& mounts) {
   Matrix12d normal = Matrix12d::Zero();
   Vector12d gradient = Vector12d::Zero();
   for (std::size_t i = 0; i < observations.size(); ++i) {
-    const Observation& o = observations[i];
-    const Vector6d e = PoseError(mounts, o.base_from_platform, o.world_from_tool);
-    const Matrix6x12d j =
-        whiteners[i] * PoseErrorJacobian(e, o.base_from_platform * mounts.platform_from_tool);
+    const LinearisedError e = Linearise(observations[i], mounts);
+    const Matrix6x12d j = whiteners[i] * e.jacobian;
     normal.noalias() += j.transpose() * j;
-    gradient.noalias() -= j.transpose() * (whiteners[i] * e);
+    gradient.noalias() -= j.transpose() * (whiteners[i] * e.error);
   }
-  const Vector12d scale = normal.diagonal().cwiseSqrt().cwiseInverse();
-  return scale.asDiagonal() *
-         Vector12d(ShortestSolution(scale.asDiagonal() * normal * scale.asDiagonal(),
-                                    scale.asDiagonal() * gradient,
-                                    kRankThreshold));
+  const Vector12d y = InverseOfNormal(normal) * gradient;
+  return {y, 0.5 * y.dot(gradient)};
 }
 
 BaseAndTool Moved(const BaseAndTool& mounts, const Vector12d& step) {
@@ -45,7 +38,7 @@ BaseAndTool Polish(const std::vector<Observation>& observations,
   BaseAndTool best = mounts;
   double last = std::numeric_limits<double>::infinity();
   for (int k = 0; k < kMaxSteps; ++k) {
-    const Vector12d step = GaussNewtonStep(observations, whiteners, best);
+    const Vector12d step = StepFrom(observations, whiteners, best).y;
     const double size = step.cwiseAbs().maxCoeff();
     if (!(size < 0.5 * last)) break;  // rounding is all that is left
     best = Moved(best, step);

@@ -8,11 +8,15 @@
 
 namespace hexcal {
 
-// The Gauss-Newton step from mounts: the shortest y that minimises the sum of |whitener (e + J
-// y)|^2, J by PoseErrorJacobian.
-Vector12d GaussNewtonStep(const std::vector<Observation>& observations,
-                          const std::vector<Matrix6d>& whiteners,
-                          const BaseAndTool& mounts);
+// The shortest y that minimises the sum of |whitener (e + J y)|^2 at mounts, J by
+// PoseErrorJacobian, and by how much of the cost (half the sum) that is expected to be less.
+struct GaussNewtonStep {
+  Vector12d y;
+  double decrease = 0.0;
+};
+GaussNewtonStep StepFrom(const std::vector<Observation>& observations,
+                         const std::vector<Matrix6d>& whiteners,
+                         const BaseAndTool& mounts);
 
 BaseAndTool Moved(const BaseAndTool& mounts, const Vector12d& step);
 

@@ -62,8 +62,9 @@ std::string Summary(const Estimate& e) {
                       e.chi_square,
                       e.degrees_of_freedom,
                       e.noise_scale);
-  text += fmt::format("  condition      {:.3g} of the scaled Jacobian\n",
-                      e.observability.condition_number);
+  const double condition = e.observability.condition_number;
+  text += fmt::format("  condition      {} of the scaled Jacobian\n",
+                      std::isfinite(condition) ? fmt::format("{:.3g}", condition) : "infinite");
   return text;
 }
 

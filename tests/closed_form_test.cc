@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/closed_form.h"
 
+#include "estimator/start.h"
 #include "testing/matchers.h"
 #include "testing/scenes.h"
 
@@ -69,7 +70,7 @@ TEST(ClosedForm, TheBestStartFitsPosesThatShareOneAxis) {
       o.base_from_platform.rotation = Exp(Eigen::Vector3d(0, 0, testing::Uniform(rng, -2, 2)));
       o.world_from_tool = truth.world_from_base * o.base_from_platform * truth.platform_from_tool;
     }
-    const BaseAndTool start = BestClosedForm(rows);
+    const BaseAndTool start = FindStart(rows);
     for (const Observation& o : rows)  // the scan's step is 15 deg
       EXPECT_LT(PoseError(start, o.base_from_platform, o.world_from_tool).tail<3>().norm(), 0.3);
   }
@@ -83,7 +84,7 @@ TEST(ClosedForm, TheBestStartFitsPosesThatDoNotRotate) {
     o.base_from_platform.rotation.setIdentity();
     o.world_from_tool = truth.world_from_base * o.base_from_platform * truth.platform_from_tool;
   }
-  const BaseAndTool start = BestClosedForm(rows);
+  const BaseAndTool start = FindStart(rows);
   for (const Observation& o : rows)
     EXPECT_LT(PoseError(start, o.base_from_platform, o.world_from_tool).norm(), 1e-9);
 }
