@@ -4,12 +4,21 @@
 #include <fmt/format.h>
 
 namespace hexcal {
+namespace {
+
+// In the dataset's units. Beyond these no instrument is meant, and squares of squares overflow.
+constexpr double kSmallestSigma = 1e-20;
+constexpr double kLargestSigma = 1e20;
+
+}  // namespace
 
 double ReadSigma(const YamlNode& node, std::string_view what) {
   const double sigma = ReadNumber(node, fmt::format("the 1-sigma of {}", what));
-  if (sigma > 0) return sigma;
-  throw InputError(
-      node.where, fmt::format("{} for the 1-sigma of {}", sigma, what), "a number above zero");
+  if (sigma >= kSmallestSigma && sigma <= kLargestSigma) return sigma;
+  throw InputError(node.where,
+                   fmt::format("{} for the 1-sigma of {}", sigma, what),
+                   sigma > 0 ? fmt::format("a number from {} to {}", kSmallestSigma, kLargestSigma)
+                             : "a number above zero");
 }
 
 Eigen::Vector3d ReadSigmas(const YamlNode& node, std::string_view what) {
