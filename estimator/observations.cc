@@ -31,8 +31,7 @@ Observations MakeObservations(const Dataset& dataset) {
   observations.tool_noise_is_known = tool_poses.has_covariance;
   observations.has_robot_noise = !robot_covariances.empty();
   observations.tracker_from_world = tool_poses.tracker_from_world;
-  if (tool_poses.has_covariance)
-    observations.tracker_from_world_covariance = tool_poses.tracker_from_world_covariance;
+  observations.tracker_from_world_covariance = tool_poses.tracker_from_world_covariance;
   observations.warnings = dataset.warnings;
   observations.warnings.insert(
       observations.warnings.end(), tool_poses.warnings.begin(), tool_poses.warnings.end());

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "geometry/align_points.h"
 #include "measurement/marker_body.h"
 
@@ -119,7 +121,24 @@ class MarkersToPoses {
                        "a base body whose frame cannot be found: " + reason,
                        "three base markers that are not collinear");
     result_.tracker_from_world = common_world_->a_from_b;
-    result_.tracker_from_world_covariance = common_world_->covariance;
+    const double variance = result_.has_covariance ? 1.0 : BaseVariance(all);
+    result_.tracker_from_world_covariance = variance * common_world_->covariance;
+  }
+
+  // Of one coordinate of a base marker, m^2: from the scatter of its readings, where no noise was
+  // stated.
+  double BaseVariance(const BodyReadings& all) {
+    double sum = 0.0;
+    int redundant = 0;
+    for (const MarkerReading& r : measurement_.readings)
+      if (r.body == BodyId::kBase)
+        sum += (r.p_in_tracker - all[r.marker].sum / all[r.marker].count).squaredNorm();
+    for (const MeanReading& marker : all) redundant += std::max(marker.count - 1, 0);
+    if (redundant > 0) return sum / (3.0 * redundant);
+    result_.warnings.emplace_back(
+        "every base marker was read only once and no noise is stated: the covariance of the base "
+        "is without the error of these readings");
+    return 0.0;
   }
 
   std::optional<Alignment> Fit(BodyId body, int pose) {

@@ -22,7 +22,8 @@ struct ToolPoses {
   std::vector<ToolPose> poses;  // in the order of robot_poses
   bool has_covariance = false;  // the noise was stated
   // Static tracker: tracker_from_world is one for all poses and its error is common to them. It
-  // moves world_from_base alone and is not in ToolPose::covariance.
+  // moves world_from_base alone and is not in ToolPose::covariance. Where the noise was not stated,
+  // that error is told by the scatter of the base's readings.
   std::optional<Pose3d> tracker_from_world;
   Matrix6d tracker_from_world_covariance = Matrix6d::Zero();
   std::vector<std::string> warnings;  // poses left out, with the reason

@@ -242,5 +242,44 @@ TEST(ToolPose, AStaticTrackerNeedsTheBaseInSomePosesOnly) {
   EXPECT_TRUE(PoseNear(poses.poses[3].world_from_tool, truth.world_from_tool[3], 1e-13, 1e-13));
 }
 
+// Without a stated noise the common error is that of the readings' scatter: as when it is stated.
+TEST(ToolPose, AStaticTrackersErrorIsToldByTheScatterOfTheBase) {
+  auto rng = SeededByTest();
+  const Truth truth = RandomTruth(rng, 200, true);
+  for (const MarkerBody& body : {RigidBody(), CentroidBody()}) {
+    Dataset dataset = MakeDataset(rng, truth, body, body, 2, 1.0);
+    dataset.tracker.is_static = true;
+    const double rms = kSigma.norm() / std::sqrt(3.0);
+    dataset.measurement->marker_sigma = Eigen::Vector3d::Constant(rms);
+    const Matrix6d stated = ComputeToolPoses(dataset).tracker_from_world_covariance;
+    dataset.measurement->marker_sigma.reset();
+    const ToolPoses poses = ComputeToolPoses(dataset);
+    EXPECT_FALSE(poses.has_covariance);
+    EXPECT_TRUE(poses.warnings.empty());
+    const Vector6d scale = stated.diagonal().cwiseSqrt().cwiseInverse();
+    EXPECT_TRUE(
+        MatrixNear(scale.asDiagonal() * poses.tracker_from_world_covariance * scale.asDiagonal(),
+                   scale.asDiagonal() * stated * scale.asDiagonal(),
+                   0.1));
+  }
+}
+
+TEST(ToolPose, AnErrorThatNothingTellsIsSaid) {
+  auto rng = SeededByTest();
+  const Truth truth = RandomTruth(rng, 4, true);
+  Dataset dataset = MakeDataset(rng, truth, RigidBody(), RigidBody(), 1, 0.0);
+  dataset.tracker.is_static = true;
+  dataset.measurement->marker_sigma.reset();
+  auto& readings = dataset.measurement->readings;
+  readings.erase(
+      std::remove_if(readings.begin(),
+                     readings.end(),
+                     [](const MarkerReading& r) { return r.pose > 0 && r.body == BodyId::kBase; }),
+      readings.end());
+  const ToolPoses poses = ComputeToolPoses(dataset);
+  ASSERT_EQ(poses.warnings.size(), 1u);
+  EXPECT_NE(poses.warnings[0].find("read only once"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace hexcal
