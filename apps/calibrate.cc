@@ -28,7 +28,7 @@
 namespace hexcal {
 namespace {
 
-constexpr std::string_view kRunMark = "\"format\": \"hexcal/run/";
+constexpr std::string_view kRunMark = R"("format": "hexcal/run/)";
 // Warnings of one dataset on stderr; result.json holds all.
 constexpr std::size_t kMaxWarnings = 10;
 
@@ -69,7 +69,7 @@ class CalibrateRun {
           jobs_.size(),
           threads_,
           [this](std::size_t i) { return Work(jobs_[i].dataset); },
-          [this, &progress](std::size_t i, Outcome outcome) {
+          [this, &progress](std::size_t i, const Outcome& outcome) {
             Finish(&jobs_[i], outcome);
             if (i + 1 < jobs_.size())
               progress.Update(static_cast<long>(i + 1), static_cast<long>(jobs_.size()));
@@ -179,7 +179,7 @@ class CalibrateRun {
           fmt::format("{}: {} more warnings, in result.json", dataset.name, count - kMaxWarnings));
   }
 
-  void Print(const Job& job, const ResultHeader& header, const Estimate& estimate) const {
+  static void Print(const Job& job, const ResultHeader& header, const Estimate& estimate) {
     if (FLAGS_quiet) return;
     Progress::ClearVisible();
     if (FLAGS_json)

@@ -30,7 +30,8 @@
 namespace hexcal {
 namespace {
 
-[[noreturn]] void ExitOnFailedCheck() { _exit(kInternalError); }
+// Not [[noreturn]]: glog's type has the older attribute, and clang tells them apart.
+__attribute__((noreturn)) void ExitOnFailedCheck() { _exit(kInternalError); }
 
 // Messages of the libraries go to stderr, and nothing else is left behind, whatever GLOG_* says.
 void StartLogging(const char* program) {
