@@ -62,7 +62,10 @@ Eigen::Vector3d CheckedDirection(const Eigen::Vector3d& direction,
 }
 
 bool AreCollinear(const Eigen::Matrix3Xd& points) {
-  const double extent = (points.colwise() - points.rowwise().mean()).stableNorm();
+  const Eigen::Matrix3Xd centred = points.colwise() - points.rowwise().mean().eval();
+  // As one vector: Eigen 3.4's stableNorm of a matrix with fixed rows fails its own assertion.
+  const double extent =
+      Eigen::Map<const Eigen::VectorXd>(centred.data(), centred.size()).stableNorm();
   return !(PlanarSpread(points) > kSmallestRelativeSpread * extent);  // NaN: collinear
 }
 
