@@ -161,8 +161,12 @@ class Iteration {
   // determine is left alone.
   Vector12d SolveEquations() const {
     const Vector12d scale = j_.colwise().norm().transpose().cwiseInverse();
-    return scale.asDiagonal() *
-           ShortestSolution(j_ * scale.asDiagonal(), x_, CovarianceOptions().smallest_ratio);
+    Eigen::MatrixXd equations(j_.rows(), 13);
+    equations << j_ * scale.asDiagonal(), x_;
+    const Eigen::MatrixXd r = TriangularFactor(equations);
+    return scale.asDiagonal() * ShortestSolution(r.topLeftCorner(12, 12),
+                                                 r.topRightCorner(12, 1),
+                                                 CovarianceOptions().smallest_ratio);
   }
 
   void Update(const Vector12d& y) {

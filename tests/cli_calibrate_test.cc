@@ -106,6 +106,29 @@ TEST_F(CliCalibrate, TheModelGoesBackIn) {
   EXPECT_EQ(Call(predict).status, 0);
 }
 
+// Markers of a tracker that stood still: the model also says where it stood.
+TEST_F(CliCalibrate, AStaticTrackersPlaceIsInTheModel) {
+  folder.Write(
+      "d.yaml",
+      "format: hexcal/dataset/1\nname: still\nunits: {length: m, angle: rad}\n"
+      "robot_poses:\n  rows:\n    - [pose, x, y, z, rx, ry, rz]\n" +
+          std::string(kGoodRows) +
+          "tracker: {static: true, pose: {xyz: [1, 2, 3], quaternion: [0.6, 0, 0.8, 0]}}\n"
+          "measurement:\n  kind: markers\n  noise: {sigma: 0.0001}\n"
+          "  bodies:\n"
+          "    base: {frame: rigid, markers: {a: [0, 0, 0], b: [1, 0, 0], c: [0, 1, 0]}}\n"
+          "    tool: {frame: rigid, markers: {a: [0, 0, 0], b: [1, 0, 0], c: [0, 1, 0]}}\n");
+  ASSERT_EQ(
+      Call({"simulate", "d.yaml", "--model=m.yaml", "--out=data", "--quiet", "--noise=0"}).status,
+      0);
+  const ProgramResult result = Calibrate({"--out=out"}, "still");
+  EXPECT_EQ(result.status, 0) << result.err;
+  const Machine found = ReadMachine(folder.Path("out/still/model.yaml"));
+  ASSERT_TRUE(found.world_from_tracker.has_value());
+  const Pose3d tracker_from_world{Eigen::Vector3d(1, 2, 3), Eigen::Quaterniond(0.6, 0, 0.8, 0)};
+  EXPECT_TRUE(PoseNear(*found.world_from_tracker, tracker_from_world.Inverse(), 1e-9, 1e-9));
+}
+
 TEST_F(CliCalibrate, TheResultSaysWhatItIs) {
   EXPECT_EQ(Calibrate({"--out=out"}).status, 0);
   const nlohmann::json result = nlohmann::json::parse(Result("out/good"));

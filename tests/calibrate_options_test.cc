@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/calibrate_options.h"
+
+#include <gflags/gflags.h>
+#include <gtest/gtest.h>
+
+#include "apps/flags.h"
+
+namespace hexcal {
+namespace {
+
+class CalibrateOptionsTest : public ::testing::Test {
+ private:
+  gflags::FlagSaver saver_;  // puts the flags back after each test
+};
+
+void Set(const char* name, const char* value) {
+  ASSERT_FALSE(gflags::SetCommandLineOption(name, value).empty()) << name;
+}
+
+TEST_F(CalibrateOptionsTest, WithoutFlagsTheNonlinearSolverEstimatesTheNoise) {
+  const CalibrateOptions options = CalibrateOptionsFromFlags();
+  EXPECT_EQ(options.solver, Solver::kNonlinear);
+  EXPECT_FALSE(options.start.has_value());
+  EXPECT_FALSE(options.noise.has_value());
+  EXPECT_EQ(HeaderOf("d", options).error, "");
+}
+
+TEST_F(CalibrateOptionsTest, EveryFlagReachesItsOption) {
+  Set("solver", "linearized");
+  Set("error", "twist");
+  Set("unit_magnitude", "nearest_rotation");
+  Set("iterations", "7");
+  Set("tolerance", "1e-5");
+  Set("start", "park_martin");
+  Set("noise_position", "0.25");
+  Set("noise_orientation", "0.5");
+  const CalibrateOptions options = CalibrateOptionsFromFlags();
+  EXPECT_EQ(options.solver, Solver::kLinearized);
+  EXPECT_EQ(options.linearized.error, LinearizedOptions::Error::kTwist);
+  EXPECT_EQ(options.linearized.unit_magnitude, LinearizedOptions::UnitMagnitude::kNearestRotation);
+  EXPECT_EQ(options.linearized.max_iterations, 7);
+  EXPECT_EQ(options.linearized.tolerance, 1e-5);
+  EXPECT_EQ(options.start, Start::kParkMartin);
+  ASSERT_TRUE(options.noise.has_value());
+  EXPECT_EQ(options.noise->position, 0.25);
+  EXPECT_EQ(options.noise->orientation, 0.5);
+  const ResultHeader header = HeaderOf("d", options);
+  EXPECT_EQ(header.dataset, "d");
+  EXPECT_EQ(header.solver, "linearized");
+  EXPECT_EQ(header.error, "twist");
+}
+
+TEST_F(CalibrateOptionsTest, EveryChoiceOfAFlagHasAValue) {
+  for (const char* name : {"start", "unit_magnitude", "error"})
+    for (const std::string_view choice : FindFlag(name)->choices) {
+      const gflags::FlagSaver saver;
+      Set(name, std::string(choice).c_str());
+      CalibrateOptionsFromFlags();  // CHECKs
+    }
+  Set("solver", "linearized");
+  EXPECT_EQ(CalibrateOptionsFromFlags().linearized.error, LinearizedOptions::Error::kPaper);
+}
+
+}  // namespace
+}  // namespace hexcal
