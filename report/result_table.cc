@@ -12,7 +12,10 @@
 namespace hexcal {
 namespace {
 
+// Nearer to the gimbal than this, and than so many standard deviations of the rotation, rx and rz
+// cannot be told apart.
 constexpr double kGimbalCosine = 1e-6;
+constexpr double kGimbalSigmas = 3.0;
 constexpr const char* kRowNames[6] = {"x", "y", "z", "rx", "ry", "rz"};
 
 // "0.0123" with as many decimals as two digits of sigma need.
@@ -78,7 +81,8 @@ Vector6d PoseVectorSigma(const Pose3d& a_from_b, const Matrix6d& covariance) {
                         .diagonal()
                         .cwiseMax(0.0)
                         .cwiseSqrt();
-  if (std::abs(std::cos(angles.y())) < kGimbalCosine) {
+  const double turn = std::sqrt(covariance.diagonal().tail<3>().maxCoeff());
+  if (std::abs(std::cos(angles.y())) < std::max(kGimbalCosine, kGimbalSigmas * turn)) {
     sigma.tail<3>().setConstant(std::numeric_limits<double>::infinity());
     return sigma;
   }

@@ -13,7 +13,7 @@ namespace hexcal {
 std::string ResultTable(const ResultHeader& header, const Estimate& estimate);
 
 // One standard deviation of [x y z rx ry rz] of a_from_b, m and rad, from the covariance of its
-// right perturbation. The angles' are infinite at the gimbal.
+// right perturbation. The angles' are infinite where the gimbal is within three sigmas of the turn.
 Vector6d PoseVectorSigma(const Pose3d& a_from_b, const Matrix6d& covariance);
 
 }  // namespace hexcal

@@ -167,12 +167,22 @@ TEST(PoseVectorSigma, IsTheNumericDerivativeOfThePoseVector) {
   const Pose3d pose = testing::SmallPose(rng, 1.0, 0.9);
   Matrix6d root;
   for (int i = 0; i < 6; ++i) root.col(i) = testing::Normal(rng, 6);
-  const Matrix6d covariance = root * root.transpose();
+  const Matrix6d covariance = 1e-4 * root * root.transpose();
   const Matrix6d j = testing::NumericJacobian(
       [&](const Eigen::VectorXd& d) { return VectorFromPose(Plus(pose, Vector6d(d))); }, 6);
   const Vector6d expected = (j * covariance * j.transpose()).diagonal().cwiseSqrt();
   EXPECT_TRUE(testing::MatrixNear(
       PoseVectorSigma(pose, covariance).cwiseQuotient(expected), Vector6d::Ones(), 1e-8));
+}
+
+TEST(PoseVectorSigma, HasNoAnglesWhereTheGimbalIsWithinTheirNoise) {
+  Vector6d near_gimbal = Vector6d::Zero();
+  near_gimbal[4] = std::acos(0.0) - 0.002;
+  const Pose3d pose = PoseFromVector(near_gimbal);
+  const Matrix6d narrow = 1e-8 * Matrix6d::Identity(), wide = 1e-6 * Matrix6d::Identity();
+  EXPECT_TRUE(PoseVectorSigma(pose, narrow).allFinite());
+  EXPECT_FALSE(std::isfinite(PoseVectorSigma(pose, wide)[3]));
+  EXPECT_TRUE(PoseVectorSigma(pose, wide).head<3>().allFinite());
 }
 
 }  // namespace
