@@ -100,6 +100,22 @@ TEST(Noise, IsFoundWithManyPoses) {
   EXPECT_NEAR(estimate.noise_scale, 1.0, 1e-9);  // the levels make it so
 }
 
+// With three poses the positions can always be met: of a position noise far below the orientation's
+// the residuals say nothing, and the little that rounding leaves of them is not taken for it.
+TEST(Noise, ALevelOfWhichTheDataSayNothingStaysAsItWas) {
+  auto rng = SeededByTest();
+  for (int i = 0; i < 50; ++i) {
+    const BaseAndTool truth = AnyMounts(rng);
+    auto rows = HexapodObservations(rng, truth, 3);
+    testing::AddNoise(rng, Isotropic(1e-3, 0.1), &rows);
+    const NoiseLevels start = {1e-12, 0.1};
+    const NoiseLevels levels = EstimateNoise(testing::UnknownNoise(rows), truth, start);
+    EXPECT_EQ(levels.position, start.position);
+    EXPECT_GT(levels.orientation, 0.01);
+    EXPECT_TRUE(std::isfinite(levels.orientation));
+  }
+}
+
 TEST(Noise, WithoutNoiseStaysAtRounding) {
   auto rng = SeededByTest();
   const BaseAndTool truth = AnyMounts(rng);
