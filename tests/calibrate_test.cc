@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "estimator/polish.h"
+#include "residuals/whitener.h"
 #include "testing/matchers.h"
 #include "testing/scenes.h"
 
@@ -165,6 +167,31 @@ TEST(Calibrate, AStatedNoiseThatIsTooSmallIsDoubted) {
   EXPECT_TRUE(MatrixNear(
       estimate.covariance, estimate.covariance_unscaled, 0.0));  // the stated noise stands
   EXPECT_EQ(estimate.warnings.size(), 1u);
+}
+
+// To rounding, not only until the cost is flat: else the order of rows shows.
+TEST(Calibrate, TheGradientIsZeroAtTheSolution) {
+  auto rng = SeededByTest();
+  auto rows = HexapodObservations(rng, AnyMounts(rng), 30);
+  testing::AddNoise(rng, TrackerLikeCovariance(), &rows);
+  const Estimate e = Calibrate(testing::KnownNoise(rows, TrackerLikeCovariance()), {}, {});
+  const std::vector<Matrix6d> whiteners(rows.size(), WhitenerOf(TrackerLikeCovariance()));
+  const Vector12d in_sigmas =
+      StepFrom(rows, whiteners, e.mounts).y.cwiseQuotient(e.covariance.diagonal().cwiseSqrt());
+  EXPECT_LT(in_sigmas.cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST(Calibrate, TheLinearizedIterationStartsAtTheGuessElseAtTheIdentity) {
+  auto rng = SeededByTest();
+  const BaseAndTool truth = testing::PaperMounts();
+  const Observations observations = testing::UnknownNoise(HexapodObservations(rng, truth, 10));
+  const CalibrateOptions options = Linearized(LinearizedOptions::Error::kTwist);
+  EXPECT_LT(Calibrate(observations, truth, options).iterations[0].rmspe, 1e-12);
+  const double at_identity = Calibrate(observations, {}, options).iterations[0].rmspe;
+  EXPECT_GT(at_identity, 1e-3);
+  CalibrateOptions from_identity = options;
+  from_identity.start = Start::kIdentity;
+  EXPECT_EQ(Calibrate(observations, truth, from_identity).iterations[0].rmspe, at_identity);
 }
 
 TEST(Calibrate, EveryStartReachesTheSameSolution) {

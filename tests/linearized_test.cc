@@ -96,6 +96,22 @@ TEST(Linearized, TooFewIterationsAreNoConvergence) {
   EXPECT_NE(solution.message.find("2 updates"), std::string::npos);
 }
 
+// Measured and predicted angles on either side of half a turn are near each other.
+TEST(Linearized, AnglesAreComparedAcrossHalfATurn) {
+  const Pose3d half_turn{Eigen::Vector3d::Zero(), Exp(Eigen::Vector3d(std::acos(-1.0), 0, 0))};
+  std::vector<Observation> rows(3);
+  for (int i = 0; i < 3; ++i) {
+    rows[i].base_from_platform = {Eigen::Vector3d::UnitX() * i,
+                                  Exp(Eigen::Vector3d(0.004 * (i - 1), 0, 0))};
+    rows[i].world_from_tool = half_turn * rows[i].base_from_platform;
+  }
+  Vector6d off = Vector6d::Zero();
+  off[3] = 0.01;
+  const Solution solution =
+      SolveLinearized(rows, {}, {Plus(half_turn, off), Pose3d()}, PaperOptions(1));
+  EXPECT_NEAR(solution.iterations[0].rmsoe, 0.01, 1e-12);
+}
+
 // The paper's J (Eqs. 15-20) is the derivative of the predicted pose's motion.
 TEST(Linearized, ThePapersJacobianIsTheDerivativeOfThePrediction) {
   auto rng = testing::SeededByTest();
