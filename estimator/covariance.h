@@ -11,9 +11,6 @@
 
 namespace hexcal {
 
-using Vector12d = Eigen::Matrix<double, 12, 1>;
-using Matrix12d = Eigen::Matrix<double, 12, 12>;
-
 // The paper's y = [d_b, delta_b, d_a, delta_a], Eqs. (18)-(21): label and unit of every row of
 // every covariance.
 struct ParameterInfo {

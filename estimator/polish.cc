@@ -12,9 +12,9 @@ constexpr int kMaxSteps = 10;
 
 }  // namespace
 
-GaussNewtonStep StepFrom(const std::vector<Observation>& observations,
-                         const std::vector<Matrix6d>& whiteners,
-                         const BaseAndTool& mounts) {
+WeightedStep StepFrom(const std::vector<Observation>& observations,
+                      const std::vector<Matrix6d>& whiteners,
+                      const BaseAndTool& mounts) {
   Matrix12d normal = Matrix12d::Zero();
   Vector12d gradient = Vector12d::Zero();
   for (std::size_t i = 0; i < observations.size(); ++i) {

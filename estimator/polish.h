@@ -10,13 +10,13 @@ namespace hexcal {
 
 // The shortest y that minimises the sum of |whitener (e + J y)|^2 at mounts, J by
 // PoseErrorJacobian, and by how much of the cost (half the sum) that is expected to be less.
-struct GaussNewtonStep {
+struct WeightedStep {
   Vector12d y;
   double decrease = 0.0;
 };
-GaussNewtonStep StepFrom(const std::vector<Observation>& observations,
-                         const std::vector<Matrix6d>& whiteners,
-                         const BaseAndTool& mounts);
+WeightedStep StepFrom(const std::vector<Observation>& observations,
+                      const std::vector<Matrix6d>& whiteners,
+                      const BaseAndTool& mounts);
 
 BaseAndTool Moved(const BaseAndTool& mounts, const Vector12d& step);
 

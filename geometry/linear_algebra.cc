@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "geometry/linear_algebra.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
@@ -20,6 +21,11 @@ Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> Orthogonal(const Eigen::
 SingularValues Decompose(const Eigen::MatrixXd& m) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
   return {svd.singularValues(), svd.matrixU(), svd.matrixV()};
+}
+
+Eigenvalues DecomposeSymmetric(const Eigen::MatrixXd& m) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(m);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 
 Eigen::MatrixXd PseudoInverse(const Eigen::MatrixXd& m, double threshold) {

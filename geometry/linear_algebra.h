@@ -16,6 +16,13 @@ struct SingularValues {
 };
 SingularValues Decompose(const Eigen::MatrixXd& m);
 
+// Symmetric m = vectors diag(values) vectors', smallest first.
+struct Eigenvalues {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+};
+Eigenvalues DecomposeSymmetric(const Eigen::MatrixXd& m);
+
 // Moore-Penrose inverse; pivots below threshold times the largest count as zero.
 Eigen::MatrixXd PseudoInverse(const Eigen::MatrixXd& m, double threshold);
 

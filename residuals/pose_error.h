@@ -6,6 +6,8 @@
 namespace hexcal {
 
 using Matrix6x12d = Eigen::Matrix<double, 6, 12>;
+using Vector12d = Eigen::Matrix<double, 12, 1>;
+using Matrix12d = Eigen::Matrix<double, 12, 12>;
 
 // The 12 unknowns of a calibration.
 struct BaseAndTool {

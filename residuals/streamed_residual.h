@@ -13,6 +13,11 @@ struct NormalEquations {
   Eigen::MatrixXd normal;     // J' J, p x p, both triangles
   Eigen::VectorXd gradient;   // J' r, p
   double squared_norm = 0.0;  // r' r; the sum of rho(s) under a robust loss
+  // Of the poses' errors, not weighted, for the record of an iteration: sums of squares, m^2 and
+  // rad^2, and how many poses.
+  double position_squares = 0.0;
+  double orientation_squares = 0.0;
+  long poses = 0;
 };
 
 // Residuals of which no row is ever stored: one pass gives their normal equations. What Ceres sees
@@ -28,5 +33,8 @@ class StreamedResidual {
   // parameters: one pointer a block.
   virtual NormalEquations Evaluate(double const* const* parameters) const = 0;
 };
+
+// Small motions of a block of that size: 6 for a pose.
+inline int BlockDof(int block_size) { return block_size == 7 ? 6 : block_size; }
 
 }  // namespace hexcal
