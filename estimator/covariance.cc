@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/linear_algebra.h"
-
 namespace hexcal {
 namespace {
 
@@ -79,29 +77,9 @@ std::string WhyNull(double singular_value,
 
 }  // namespace
 
-void JacobianFactor::Add(const Matrix6x12d& whitened) {
-  if (used_ + 6 > kChunkRows) Compress();
-  rows_.middleRows<6>(used_) = whitened;
-  used_ += 6;
-}
-
-void JacobianFactor::Compress() {
-  rows_.bottomRows(kChunkRows - used_).setZero();
-  const Matrix12d r = TriangularFactor(rows_);
-  rows_.topRows<12>() = r;
-  used_ = 12;
-}
-
-Matrix12d JacobianFactor::R() {
-  Compress();
-  return rows_.topRows<12>();
-}
-
 ParameterCovariance ComputeCovariance(const Matrix12d& r_factor, const CovarianceOptions& options) {
-  const Vector12d norms = r_factor.colwise().norm().transpose();
-  const Vector12d unscale = norms.unaryExpr([](double n) { return n > 0 ? 1.0 / n : 1.0; });
-  const SingularValues svd = Decompose(r_factor * unscale.asDiagonal());
-  const Vector12d s = svd.singular_values;
+  const Information information = Analyse(r_factor);
+  const Vector12d s = information.singular_values;
 
   ParameterCovariance result;
   Observability& observability = result.observability;
@@ -109,16 +87,13 @@ ParameterCovariance ComputeCovariance(const Matrix12d& r_factor, const Covarianc
   observability.condition_number = s[0] / s[11];
   observability.determined.fill(true);
   for (int k = 0; k < 12; ++k) {
-    const Vector12d scaled = svd.v.col(k);
-    Vector12d direction = unscale.asDiagonal() * scaled;
-    Eigen::Index largest = 0;
-    direction.cwiseAbs().maxCoeff(&largest);
-    if (direction[largest] < 0) direction = -direction;  // either sign is the same direction
+    const Vector12d direction = information.directions.col(k);
     if (const std::string why = WhyNull(s[k], s[0], direction / s[k], options); !why.empty()) {
       ++observability.null_directions;
       observability.weak_directions.push_back(DescribeDirection(direction) + ", since " + why);
       for (int i = 0; i < 12; ++i)
-        if (std::abs(scaled[i]) > kRoundingShare) observability.determined[i] = false;
+        if (std::abs(information.scaled_directions(i, k)) > kRoundingShare)
+          observability.determined[i] = false;
     } else {
       result.covariance += direction * direction.transpose() / (s[k] * s[k]);
     }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "estimator/information.h"
 #include "residuals/pose_error.h"
 
 namespace hexcal {
@@ -55,19 +56,15 @@ struct CovarianceOptions {
   double robot_orientation_noise_rad = 0.0;
 };
 
-// Gathers the whitened rows of all poses as their R factor (sequential QR: the singular values are
-// those of the whole Jacobian, and nothing is squared).
+// Gathers the whitened rows of all poses as their R factor.
 class JacobianFactor {
  public:
   // whitened = whitener * PoseErrorJacobian. Sums are taken in the order of calls.
-  void Add(const Matrix6x12d& whitened);
-  Matrix12d R();  // upper triangular, 12 x 12
+  void Add(const Matrix6x12d& whitened) { rows_.Add(whitened); }
+  Matrix12d R() { return rows_.R(); }  // upper triangular, 12 x 12
 
  private:
-  void Compress();
-  static constexpr int kChunkRows = 16 * 12;
-  Eigen::Matrix<double, kChunkRows, 12> rows_ = Eigen::Matrix<double, kChunkRows, 12>::Zero();
-  int used_ = 0;
+  RowFactor rows_{12};
 };
 
 struct ParameterCovariance {
