@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace hexcal {
+
+// Student's t, chi-square and Fisher's F, from Boost.Math. Degrees of freedom may be fractions,
+// above 0. Quantile: below it lies that probability, in (0, 1). Tail: the probability above x; it
+// keeps its digits where it is small, and is 0 below 1e-308.
+double StudentTQuantile(double probability, double degrees_of_freedom);
+double StudentTTail(double x, double degrees_of_freedom);
+
+double ChiSquareQuantile(double probability, double degrees_of_freedom);
+double ChiSquareTail(double x, double degrees_of_freedom);  // x from 0
+
+double FisherFQuantile(double probability, double numerator_dof, double denominator_dof);
+double FisherFTail(double x, double numerator_dof, double denominator_dof);  // x from 0
+double FisherFDensity(double x, double numerator_dof, double denominator_dof);
+
+}  // namespace hexcal

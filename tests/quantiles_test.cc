@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/quantiles.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hexcal {
+namespace {
+
+// The tables at the back of every textbook, and closed forms: t with 2 degrees of freedom has the
+// tail (1 - x / sqrt(2 + x^2)) / 2, chi-square with 6 has exp(-x/2) (1 + x/2 + x^2/8), F with 2
+// and d has (1 + 2 x / d)^(-d/2).
+TEST(Quantiles, AreThoseOfTables) {
+  EXPECT_NEAR(StudentTQuantile(0.975, 10.0), 2.228, 5e-4);
+  EXPECT_NEAR(StudentTQuantile(0.975, 48.0), 2.011, 5e-4);
+  EXPECT_NEAR(ChiSquareQuantile(0.95, 12.0), 21.026, 5e-4);
+  EXPECT_NEAR(ChiSquareQuantile(0.99, 6.0), 16.812, 5e-4);
+  EXPECT_NEAR(FisherFQuantile(0.95, 6.0, 10.0), 3.217, 5e-4);
+  EXPECT_NEAR(FisherFQuantile(0.99, 3.0, 20.0), 4.938, 5e-4);
+}
+
+TEST(Quantiles, TailsAreTheClosedForms) {
+  for (const double x : {0.0, 0.3, 1.0, 5.0, 40.0}) {
+    EXPECT_NEAR(StudentTTail(x, 2.0), 0.5 * (1.0 - x / std::sqrt(2.0 + x * x)), 1e-15);
+    EXPECT_NEAR(StudentTTail(-x, 2.0), 0.5 * (1.0 + x / std::sqrt(2.0 + x * x)), 1e-15);
+    EXPECT_NEAR(FisherFTail(x, 2.0, 7.5), std::pow(1.0 + 2.0 * x / 7.5, -3.75), 1e-14);
+  }
+  // to their last digits, however small
+  for (const double x : {1.0, 30.0, 300.0, 1200.0}) {
+    const double tail = std::exp(-0.5 * x) * (1.0 + 0.5 * x + 0.125 * x * x);
+    EXPECT_NEAR(ChiSquareTail(x, 6.0) / tail, 1.0, 1e-12);
+  }
+  EXPECT_EQ(ChiSquareTail(1e6, 6.0), 0.0);
+}
+
+TEST(Quantiles, AndTailsUndoEachOther) {
+  for (const double p : {0.5, 0.95, 0.999, 1.0 - 1e-6}) {
+    EXPECT_NEAR(StudentTTail(StudentTQuantile(p, 7.5), 7.5), 1.0 - p, 1e-12);
+    EXPECT_NEAR(ChiSquareTail(ChiSquareQuantile(p, 6.0), 6.0), 1.0 - p, 1e-12);
+    EXPECT_NEAR(FisherFTail(FisherFQuantile(p, 3.0, 20.5), 3.0, 20.5), 1.0 - p, 1e-12);
+  }
+}
+
+TEST(Quantiles, DensityIsTheSlopeOfTheTail) {
+  constexpr double kStep = 1e-5;
+  for (const double x : {0.2, 1.0, 4.0}) {
+    const double slope =
+        (FisherFTail(x - kStep, 3.0, 20.0) - FisherFTail(x + kStep, 3.0, 20.0)) / (2.0 * kStep);
+    EXPECT_NEAR(FisherFDensity(x, 3.0, 20.0), slope, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace hexcal
