@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "config/units.h"
+#include "estimator/chordal_cost.h"
 #include "geometry/align_points.h"
 #include "geometry/linear_algebra.h"
 
@@ -18,6 +19,8 @@ constexpr double kHalfTurnMargin = 0.2;
 constexpr std::size_t kMaxPartners = 40;
 // Root mean square turn, rad, below which rotations do not tell base and tool apart.
 constexpr double kSmallestTurn = 1e-6;
+// Pivots of normal equations below this part of the largest are rounding.
+constexpr double kSmallestPivot = 1e-14;
 
 Eigen::Matrix3d Robot(const Observation& o) {
   return o.base_from_platform.rotation.toRotationMatrix();
@@ -104,6 +107,68 @@ Eigen::Matrix3d BaseByPositions(const Rows& rows) {
   return AlignPoints(world, base).rotation.toRotationMatrix();
 }
 
+// All 24 entries of v in one least-squares problem with equal weights (1 m against 1), then the
+// rotations nearest to what comes out. As published, the translations stay as solved.
+BaseAndTool SolveLi(const Rows& rows) {
+  ChordalCost cost;
+  for (const Observation& o : rows) cost.Add(o, 1.0, 2.0);
+  constexpr int kFree = ChordalCost::kSize - 1;
+  const Eigen::MatrixXd form = cost.Form();
+  const Eigen::VectorXd v = ShortestSolution(
+      form.topLeftCorner(kFree, kFree), -form.topRightCorner(kFree, 1), kSmallestPivot);
+  const Eigen::Matrix3d z = Eigen::Map<const Eigen::Matrix3d>(v.data());
+  const Eigen::Matrix3d tool = Eigen::Map<const Eigen::Matrix3d>(v.data() + 9);
+  const Eigen::Matrix3d base = NearestRotation(z).transpose();
+  return {MakePose(base, base * cost.BaseShift(z, v.segment<3>(21))),
+          MakePose(NearestRotation(tool), v.segment<3>(18))};
+}
+
+// Of +-q and +-a: the measured quaternion whose turn from the first pose has the scalar part that
+// the reported one has. Both turns are one motion, seen from the world and from the base.
+Eigen::Quaterniond SameSheet(const Observation& o, const Observation& first) {
+  const double reported =
+      (o.base_from_platform.rotation * first.base_from_platform.rotation.conjugate()).w();
+  const double measured =
+      (o.world_from_tool.rotation * first.world_from_tool.rotation.conjugate()).w();
+  Eigen::Quaterniond q = o.world_from_tool.rotation;
+  if (reported * measured < 0) q.coeffs() = -q.coeffs();
+  return q;
+}
+
+// a x = y q with quaternions (scalar a0, vector a) of pose, tool, base_from_world and measurement.
+// Its scalar row gives x0 and with it three rows for the vectors of x and y, over y0: here times
+// a0, so that poses of a half turn have no weight in place of an infinite one.
+BaseAndTool SolveZhuang(const Rows& rows) {
+  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  for (const Observation& o : rows) {
+    const Eigen::Quaterniond measured = SameSheet(o, rows[0]);
+    const double a0 = o.base_from_platform.rotation.w(), q0 = measured.w();
+    const Eigen::Vector3d a = o.base_from_platform.rotation.vec(), q = measured.vec();
+    Eigen::Matrix<double, 3, 6> equations;
+    equations << a0 * (a0 * identity + Skew(a)) + a * a.transpose(),
+        a0 * (Skew(q) - q0 * identity) - a * q.transpose();
+    normal += equations.transpose() * equations;
+    right += equations.transpose() * (a0 * q - q0 * a);
+  }
+  const Eigen::VectorXd over_y0 = ShortestSolution(normal, right, kSmallestPivot);
+  const Eigen::Vector3d x = over_y0.head<3>(), y = over_y0.tail<3>();
+  // The scalar rows, a0 x0 = q0 - y q + x a over y0.
+  double numerator = 0.0, denominator = 0.0;
+  for (const Observation& o : rows) {
+    const Eigen::Quaterniond measured = SameSheet(o, rows[0]);
+    const double a0 = o.base_from_platform.rotation.w();
+    numerator +=
+        a0 * (measured.w() - y.dot(measured.vec()) + x.dot(o.base_from_platform.rotation.vec()));
+    denominator += a0 * a0;
+  }
+  const Eigen::Quaterniond tool(numerator / denominator, x.x(), x.y(), x.z());
+  const Eigen::Quaterniond base(1.0, -y.x(), -y.y(), -y.z());
+  return WithTranslations(
+      rows, base.normalized().toRotationMatrix(), tool.normalized().toRotationMatrix());
+}
+
 }  // namespace
 
 BaseAndTool CompleteBase(const Rows& rows, const Eigen::Matrix3d& base_rotation) {
@@ -116,6 +181,10 @@ BaseAndTool SolveClosedForm(ClosedForm method, const Rows& rows) {
       return CompleteBase(rows, BaseByShah(rows));
     case ClosedForm::kParkMartin:
       return CompleteBase(rows, BaseByParkMartin(rows));
+    case ClosedForm::kLi:
+      return SolveLi(rows);
+    case ClosedForm::kZhuang:
+      return SolveZhuang(rows);
     case ClosedForm::kPositions:
       return CompleteBase(rows, BaseByPositions(rows));
   }

@@ -25,6 +25,15 @@ TEST(LinearAlgebra, SingularValuesRebuildTheMatrixLargestFirst) {
   for (int i = 1; i < 9; ++i) EXPECT_GE(svd.singular_values[i - 1], svd.singular_values[i]);
 }
 
+TEST(LinearAlgebra, EigenvaluesRebuildASymmetricMatrixSmallestFirst) {
+  auto rng = SeededByTest();
+  const Eigen::MatrixXd a = RandomMatrix(rng, 7, 7), m = a + a.transpose();
+  const Eigenvalues eigen = DecomposeSymmetric(m);
+  EXPECT_TRUE(
+      MatrixNear(eigen.vectors * eigen.values.asDiagonal() * eigen.vectors.transpose(), m, 1e-13));
+  for (int i = 1; i < 7; ++i) EXPECT_LE(eigen.values[i - 1], eigen.values[i]);
+}
+
 TEST(LinearAlgebra, PseudoInverseInvertsTheRangeAndLeavesTheRestAtZero) {
   auto rng = SeededByTest();
   const Eigen::MatrixXd a = RandomMatrix(rng, 6, 4), m = a * a.transpose();  // rank 4
