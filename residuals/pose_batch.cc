@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "residuals/pose_batch.h"
+
+#include <Eigen/Cholesky>
+
+namespace hexcal {
+namespace {
+
+void SetLanes(Lanes* lanes, int first, double value) {
+  for (int l = first; l < kLanes; ++l) (*lanes)[l] = value;
+}
+
+void SetPose(const Pose3d& pose, int first, Vec<Lanes>* t, Quat<Lanes>* q) {
+  SetLanes(&t->x, first, pose.translation.x());
+  SetLanes(&t->y, first, pose.translation.y());
+  SetLanes(&t->z, first, pose.translation.z());
+  SetLanes(&q->x, first, pose.rotation.x());
+  SetLanes(&q->y, first, pose.rotation.y());
+  SetLanes(&q->z, first, pose.rotation.z());
+  SetLanes(&q->w, first, pose.rotation.w());
+}
+
+void SetInformation(const Matrix6d& covariance, int first, PoseWeights::Block* block) {
+  const Matrix6d information = covariance.llt().solve(Matrix6d::Identity());
+  int k = 0;
+  for (int i = 0; i < 6; ++i)
+    for (int j = i; j < 6; ++j) SetLanes(&block->w[k++], first, information(i, j));
+}
+
+}  // namespace
+
+void PoseBatch::Add(const Pose3d& base_from_platform, const Pose3d& world_from_tool) {
+  const int lane = static_cast<int>(size_ % kLanes);
+  if (lane == 0) blocks_.emplace_back();
+  Block& block = blocks_.back();
+  SetPose(base_from_platform, lane, &block.base_from_platform_t, &block.base_from_platform_q);
+  SetPose(world_from_tool, lane, &block.world_from_tool_t, &block.world_from_tool_q);
+  ++size_;
+}
+
+PoseWeights PoseWeights::Isotropic(double position_sigma, double orientation_sigma) {
+  PoseWeights weights;
+  weights.position_ = 1.0 / (position_sigma * position_sigma);
+  weights.orientation_ = 1.0 / (orientation_sigma * orientation_sigma);
+  return weights;
+}
+
+PoseWeights PoseWeights::Common(const Matrix6d& covariance) {
+  PoseWeights weights;
+  weights.kind_ = Kind::kCommon;
+  SetInformation(covariance, 0, &weights.common_);
+  return weights;
+}
+
+PoseWeights PoseWeights::PerPose(std::size_t poses) {
+  PoseWeights weights;
+  weights.kind_ = Kind::kPerPose;
+  weights.blocks_.reserve((poses + kLanes - 1) / kLanes);
+  return weights;
+}
+
+void PoseWeights::Add(const Matrix6d& covariance) {
+  const int lane = static_cast<int>(size_ % kLanes);
+  if (lane == 0) blocks_.emplace_back();
+  SetInformation(covariance, lane, &blocks_.back());
+  ++size_;
+}
+
+}  // namespace hexcal
