@@ -4,6 +4,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
+#include <cmath>
 
 namespace hexcal {
 namespace {
@@ -51,6 +52,29 @@ double FisherFTail(double x, double numerator_dof, double denominator_dof) {
 
 double FisherFDensity(double x, double numerator_dof, double denominator_dof) {
   return boost::math::pdf(FisherF(numerator_dof, denominator_dof), x);
+}
+
+// With half = x / 2: {A < half, B > x - A}, {B < half, A > x - B} and {A > half, B > half} are all
+// of it and do not overlap. The integrals over the smaller one by Simpson's rule in its logarithm,
+// in which the integrand is smooth.
+double FisherSumTail(double x, double n, double a, double b) {
+  constexpr int kIntervals = 96;
+  constexpr double kSmallest = 1e-6;  // below it F has no mass that counts
+  const double half = 0.5 * x;
+  const auto tail = [n](double value, double dof) { return FisherFTail(value / n, n, dof); };
+  if (!(half > kSmallest)) return 1.0;
+  const double step = std::log(half / kSmallest) / kIntervals;
+  const auto part = [&](double of_smaller, double of_larger) {
+    double sum = 0.0;
+    for (int i = 0; i <= kIntervals; ++i) {
+      const double smaller = kSmallest * std::exp(i * step);
+      const double weight = i == 0 || i == kIntervals ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
+      sum += weight * smaller * FisherFDensity(smaller / n, n, of_smaller) / n *
+             tail(x - smaller, of_larger);
+    }
+    return sum * step / 3.0;
+  };
+  return part(a, b) + part(b, a) + tail(half, a) * tail(half, b);
 }
 
 }  // namespace hexcal

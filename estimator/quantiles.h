@@ -16,4 +16,8 @@ double FisherFQuantile(double probability, double numerator_dof, double denomina
 double FisherFTail(double x, double numerator_dof, double denominator_dof);  // x from 0
 double FisherFDensity(double x, double numerator_dof, double denominator_dof);
 
+// The probability that n F(n, a) + n F(n, b) exceeds x, for independent F: two sums of n squares,
+// each in units of its own estimated variance.
+double FisherSumTail(double x, double n, double a, double b);
+
 }  // namespace hexcal

@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <utility>
+
+#include "testing/random.h"
 
 namespace hexcal {
 namespace {
@@ -48,6 +52,26 @@ TEST(Quantiles, DensityIsTheSlopeOfTheTail) {
     const double slope =
         (FisherFTail(x - kStep, 3.0, 20.0) - FisherFTail(x + kStep, 3.0, 20.0)) / (2.0 * kStep);
     EXPECT_NEAR(FisherFDensity(x, 3.0, 20.0), slope, 1e-9);
+  }
+}
+
+// With many degrees of freedom F is chi-square; with few, by repeats.
+TEST(Quantiles, TailOfTheSumOfTwoF) {
+  for (const double x : {1e-9, 0.5, 6.0, 20.0, 60.0})
+    EXPECT_NEAR(FisherSumTail(x, 3.0, 1e8, 1e8) / ChiSquareTail(x, 6.0), 1.0, 2e-5) << x;
+  EXPECT_NEAR(FisherSumTail(30.0, 3.0, 1e-2 + 9.0, 1e7), FisherSumTail(30.0, 3.0, 1e7, 9.01), 1e-9);
+  auto rng = testing::SeededByTest();
+  constexpr int kDraws = 200000;
+  std::chi_squared_distribution<double> three(3.0), nine(9.0), thirty(30.0);
+  int above_10 = 0, above_40 = 0;
+  for (int k = 0; k < kDraws; ++k) {
+    const double x = three(rng) / (nine(rng) / 9.0) + three(rng) / (thirty(rng) / 30.0);
+    above_10 += x > 10.0;
+    above_40 += x > 40.0;
+  }
+  for (const auto& [count, x] : {std::pair(above_10, 10.0), std::pair(above_40, 40.0)}) {
+    const double p = FisherSumTail(x, 3.0, 9.0, 30.0);
+    EXPECT_NEAR(count, p * kDraws, 4.0 * std::sqrt(p * kDraws)) << x;
   }
 }
 
