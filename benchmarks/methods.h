@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "study_scene.h"
+
+namespace hexcal {
+
+// One whole calibration; what it returns is the estimate.
+using Calibration = std::function<BaseAndTool()>;
+
+// A way to find base and tool. prepare turns the poses into what the method reads (no part of its
+// time); the observations must outlive the calibration.
+struct Method {
+  std::string name;
+  std::function<Calibration(const Observations&, const BaseAndTool& truth)> prepare;
+};
+
+// Covariance of the 12 with it.
+Method Hexcal();
+
+// One residual block a pose by automatic derivatives, quaternions, Ceres's own options and
+// covariance: what is written in an hour. Starts 0.1 m and 0.1 rad an axis from the truth.
+Method PlainCeres();
+
+// Shah's and Li's closed forms in OpenCV; none where OpenCV is not installed.
+std::vector<Method> OpenCv();
+
+}  // namespace hexcal
