@@ -3,6 +3,21 @@
 
 namespace hexcal {
 
+double RobustLoss::Curvature(double s) const {
+  const double limit = scale * scale;
+  switch (kind) {
+    case LossKind::kNone:
+      break;
+    case LossKind::kHuber:
+      return s > limit ? -0.5 * scale / (s * std::sqrt(s)) : 0.0;
+    case LossKind::kCauchy:
+      return -1.0 / (limit * std::pow(1.0 + s / limit, 2));
+    case LossKind::kTukey:
+      return s < limit ? -2.0 / limit * (1.0 - s / limit) : 0.0;
+  }
+  return 0.0;
+}
+
 // The estimate of a location in p dimensions, residual r, weight w(r), has the efficiency
 // E[w + r w' / p]^2 / E[w^2 r^2 / p] under r^2 ~ chi^2 with p degrees of freedom (Hampel,
 // Ronchetti, Rousseeuw, Stahel, Robust Statistics (1986), sec. 5.2); for p = 6 it is 0.95 at these

@@ -43,6 +43,8 @@ struct RobustLoss {
     *weight = 1.0;
     *rho = s;
   }
+
+  double Curvature(double s) const;  // rho''(s): at most 0
 };
 
 // The loss at the scale with which it is 95 % efficient where the noise is Gaussian and the

@@ -67,6 +67,7 @@ TEST(RobustLoss, IsThatOfCeres) {
         CeresLoss(loss)->Evaluate(s, of_ceres);
         EXPECT_NEAR(Rho(loss, s), of_ceres[0], 1e-13 * (1.0 + s));
         EXPECT_NEAR(Weight(loss, s), of_ceres[1], 1e-14);
+        EXPECT_NEAR(loss.Curvature(s), of_ceres[2], 1e-14);
       }
 }
 
@@ -82,13 +83,8 @@ double Integral(const std::function<double(double)>& f, double from, double to) 
 // E[w + r w' / 6]^2 / E[w^2 r^2 / 6]; r has the density r^5 exp(-r^2 / 2) / 8.
 double Efficiency(const RobustLoss& loss) {
   const auto density = [](double r) { return std::pow(r, 5) * std::exp(-0.5 * r * r) / 8.0; };
-  const auto slope = [&](double r) {
-    constexpr double kStep = 1e-7;
-    return (Weight(loss, std::pow(r + kStep, 2)) - Weight(loss, std::pow(r - kStep, 2))) /
-           (2.0 * kStep);
-  };
-  const auto psi_slope = [&](double r) {
-    return (Weight(loss, r * r) + r * slope(r) / 6.0) * density(r);
+  const auto psi_slope = [&](double r) {  // w + r dw/dr / 6, dw/dr = 2 r rho''
+    return (Weight(loss, r * r) + r * r * loss.Curvature(r * r) / 3.0) * density(r);
   };
   const auto psi_square = [&](double r) {
     return std::pow(Weight(loss, r * r) * r, 2) / 6.0 * density(r);
