@@ -4,9 +4,13 @@
 // of others (README.md of that folder).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <string>
+#include <vector>
 
 #include "estimator/calibrate.h"
+#include "estimator/outliers.h"
 #include "measurement/dataset.h"
 
 namespace hexcal {
@@ -60,6 +64,25 @@ TEST_F(RealData, ScaraOneAxisLosesTheShiftAlongItsAxis) {
   ASSERT_EQ(estimate.observability.weak_directions.size(), 1u);
   EXPECT_NE(estimate.observability.weak_directions[0].find("base.dz"), std::string::npos);
   EXPECT_FALSE(estimate.observability.determined[2]);
+}
+
+// Corner order flips of a checkerboard. Plain least squares leaves 5.7 mm RMS with a median of 3.4.
+TEST_F(RealData, Ur3TwoCamerasHasTwoOutliers) {
+  const std::string folder = std::getenv("HEXCAL_DATA");
+  const Observations all =
+      MakeObservations(ReadDataset(folder + "/ur3-two-cameras/dataset.yaml", true));
+  for (const double alpha : {0.001, 0.01, 0.05}) {
+    const std::vector<Outlier> outliers = FindOutliers(all, {}, {alpha}).outliers;
+    ASSERT_EQ(outliers.size(), 2u);
+    EXPECT_EQ(outliers[0].label, "24");
+    EXPECT_EQ(outliers[1].label, "25");
+    const Estimate estimate = Calibrate(Without(all, outliers), {}, {});
+    ASSERT_TRUE(estimate.IsTrustworthy());
+    std::vector<double> errors;
+    for (const PoseResult& pose : estimate.poses) errors.push_back(pose.residual.head<3>().norm());
+    std::nth_element(errors.begin(), errors.begin() + 19, errors.end());
+    EXPECT_LE(errors[19], 3.1e-3);  // the upper of the two middle ones of 38
+  }
 }
 
 }  // namespace
