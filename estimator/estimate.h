@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,16 +28,29 @@ struct Solution {
   std::vector<IterationRecord> iterations;
 };
 
+// What a calibration by markers leaves of the mean reading of one marker in one pose.
+struct MarkerMisfit {
+  std::string marker;                                  // base/b1, tool/t2
+  Eigen::Vector3d residual = Eigen::Vector3d::Zero();  // measured - predicted, m, frame M
+};
+
 struct PoseResult {
   std::string label;
   double weight = 1.0;
   Vector6d residual = Vector6d::Zero();  // measured [-] predicted, [m, rad], frame T, not whitened
+  std::vector<MarkerMisfit> markers = {};  // of a calibration by markers
 };
+
+// On which side of the loop the noise is taken to be.
+enum class NoiseSide { kTracker, kRobot, kBoth };
 
 struct NoiseSummary {
   double position = 0.0;     // 1-sigma of a coordinate, m: the mean over poses and axes
   double orientation = 0.0;  // rad
   bool estimated = false;
+  // Of a calibration by markers: 1-sigma of one reading along the tracker's axes, m.
+  std::optional<Eigen::Vector3d> marker = {};
+  NoiseSide assumed = NoiseSide::kTracker;
 };
 
 // A calibration with all that judges it.
@@ -46,6 +60,7 @@ struct Estimate {
   std::string message;  // why it did not converge
   std::vector<IterationRecord> iterations;
   std::vector<PoseResult> poses;
+  std::optional<Pose3d> tracker_from_world;  // of a tracker that stood still
 
   NoiseSummary noise;
   double noise_scale = 1.0;  // sqrt(chi_square / degrees_of_freedom)

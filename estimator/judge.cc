@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/judge.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/judge_common.h"
 #include "estimator/linearized.h"
 #include "estimator/normal_matrix.h"
 #include "estimator/rms.h"
@@ -13,9 +12,6 @@
 
 namespace hexcal {
 namespace {
-
-// Residuals this many times larger or smaller than the stated noise explains put it in doubt.
-constexpr double kDoubtfulScale = 2.0;
 
 class Judgement {
  public:
@@ -35,6 +31,7 @@ class Judgement {
   }
 
   void SetResiduals() {
+    estimate_.tracker_from_world = observations_.tracker_from_world;
     const double n = static_cast<double>(observations_.items.size());
     RmsError rms;
     Vector6d mean_variance = Vector6d::Zero();
@@ -52,9 +49,12 @@ class Judgement {
       estimate_.rmspe = estimate_.iterations.back().rmspe;
       estimate_.rmsoe = estimate_.iterations.back().rmsoe;
     }
+    const Vector6d robot = RobotVariance(observations_, estimate_.mounts);
     estimate_.noise = {std::sqrt(mean_variance.head<3>().mean()),
                        std::sqrt(mean_variance.tail<3>().mean()),
-                       weighting_.levels_estimated};
+                       weighting_.levels_estimated,
+                       {},
+                       SideOfNoise(mean_variance - robot, robot)};
   }
 
   void SetCovariance() {
@@ -94,25 +94,11 @@ class Judgement {
     return inverse * spread * inverse.transpose();
   }
 
-  // No sigma may be longer than the machine is large.
   CovarianceOptions Limits() const {
-    CovarianceOptions options;
-    double size = 1e-3, orientation_variance = 0.0;
-    const Eigen::Vector3d first = observations_.items[0].world_from_tool.translation;
-    for (const Observation& o : observations_.items) {
-      size = std::max(
-          {size,
-           (o.world_from_tool.translation - first).norm(),
-           (o.base_from_platform * estimate_.mounts.platform_from_tool).translation.norm()});
-      orientation_variance += o.robot_covariance.diagonal().tail<3>().mean();
-    }
-    options.largest_sigma_m = size;
+    CovarianceOptions options = LimitsOf(observations_, estimate_.mounts);
     if (!weighting_.levels_estimated)
       options.noise_scale = std::max(
           1.0, std::sqrt(estimate_.chi_square / (6.0 * observations_.items.size() - 12.0)));
-    if (observations_.has_robot_noise)
-      options.robot_orientation_noise_rad =
-          std::sqrt(orientation_variance / observations_.items.size());
     return options;
   }
 
@@ -134,16 +120,7 @@ class Judgement {
       warnings.push_back("the data do not determine " + direction);
     // Nothing was stated that could be doubted.
     if (weighting_.levels_estimated && !observations_.has_robot_noise) return;
-    if (estimate_.noise_scale > kDoubtfulScale)
-      warnings.push_back(
-          fmt::format("the residuals are {:.3g} times larger than the stated noise explains: the "
-                      "noise is larger, or the model misses something",
-                      estimate_.noise_scale));
-    if (estimate_.noise_scale < 1.0 / kDoubtfulScale)
-      warnings.push_back(
-          fmt::format("the residuals are {:.3g} times smaller than the stated noise: it is too "
-                      "large, and so are the standard deviations",
-                      1.0 / estimate_.noise_scale));
+    AddNoiseDoubts(estimate_.noise_scale, &warnings);
   }
 
   const Observations& observations_;

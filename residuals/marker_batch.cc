@@ -79,10 +79,10 @@ MarkerFit MarkerBatch::FitAt(double const* const* parameters,
     fit.squared_readings += terms.squared - terms.squared_draw;
     fit.squared_draws += terms.squared_draw;
     fit.draw_freedom += pose.DrawFreedom(terms, layout_, inverse);
-    fit.mean_variance += pose.PoseCovariance(terms).diagonal();
+    fit.tool_variance += pose.ToolCovariance(terms).diagonal();
     tools += pose.HasTool() ? 1 : 0;
   }
-  fit.mean_variance /= tools;
+  fit.tool_variance /= tools;
   return fit;
 }
 

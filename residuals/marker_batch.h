@@ -16,7 +16,7 @@ struct MarkerFit {
   double squared_readings = 0.0;           // whitened misfits
   double squared_draws = 0.0;              // of the robot's noise, in its sigmas
   double draw_freedom = 0.0;               // degrees of freedom of the readings that the draws take
-  Vector6d mean_variance = Vector6d::Zero();  // of MarkerPoseLikelihood::PoseCovariance
+  Vector6d tool_variance = Vector6d::Zero();  // mean of the diagonals of ToolCovariance
 };
 
 // Maximum likelihood from marker readings. A reading of base marker b or tool marker t in pose i:

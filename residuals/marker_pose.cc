@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "residuals/marker_pose.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
 
 #include "residuals/pose_error.h"
+#include "residuals/spd_inverse.h"
 
 namespace hexcal {
 namespace {
 
 constexpr int kMaxSteps = 30;
 constexpr int kMaxHalvings = 12;
-// A step that is this part of a sigma (squared, and relative to the cost) is the last: what it
-// leaves is gone to first order with the elimination.
-constexpr double kSmallDecrement = 1e-18;
+// A step of this part of a sigma (squared, and relative to the cost) is the last: it leaves a
+// thousandth of itself, and the elimination takes that out to first order.
+constexpr double kSmallDecrement = 1e-12;
 // Of the cost: below this its changes are rounding.
 constexpr double kRounding = 1e-12;
 
 BodyTwist Solve(const BodyTerms& body) {
-  const Eigen::LLT<Matrix6d> llt(body.normal);
-  return {llt.solve(Matrix6d::Identity()), llt.solve(body.gradient), llt.solve(body.cross)};
+  BodyTwist twist;
+  twist.covariance = SpdInverse(body.normal);
+  twist.best = twist.covariance * body.gradient;
+  twist.by_shape = twist.covariance.lazyProduct(body.cross);
+  return twist;
 }
 
 // Of a quadratic form |r - G C unknowns - F shape|^2 with the terms of one body.
@@ -130,7 +133,7 @@ void MarkerPoseLikelihood::CloseLoop(const MarkerNuisance& nuisance, PoseTerms* 
     terms->error += terms->by_robot * nuisance.robot_draw;
     covariance += terms->by_robot * terms->by_robot.transpose();
   }
-  terms->weight = covariance.llt().solve(Matrix6d::Identity());
+  terms->weight = SpdInverse(covariance);
 }
 
 MarkerNuisance MarkerPoseLikelihood::Moved(const MarkerNuisance& nuisance,
@@ -226,9 +229,11 @@ void MarkerPoseLikelihood::AddReduced(const PoseTerms& terms,
   sum->gradient.noalias() -= weighted.transpose() * terms.error;
 }
 
-Matrix6d MarkerPoseLikelihood::PoseCovariance(const PoseTerms& terms) const {
+Matrix6d MarkerPoseLikelihood::ToolCovariance(const PoseTerms& terms) const {
   if (!HasTool()) return Matrix6d::Zero();
-  return (HasNuisance() ? terms.weight : terms.bodies[1].normal).llt().solve(Matrix6d::Identity());
+  const Matrix6d covariance = SpdInverse(terms.bodies[1].normal);
+  if (data_.tracker_is_static) return covariance;
+  return covariance + terms.by_world * terms.twists[0].covariance * terms.by_world.transpose();
 }
 
 double MarkerPoseLikelihood::DrawFreedom(const PoseTerms& terms,

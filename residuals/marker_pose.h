@@ -79,9 +79,9 @@ class MarkerPoseLikelihood {
   // size.
   void AddReduced(const PoseTerms& terms, const MarkerLayout& layout, NormalEquations* sum) const;
 
-  // Covariance of the measured tool pose that this pose is worth, right perturbation, frame T:
-  // readings and robot, but not the pose of a static tracker. Zero where the tool was not seen.
-  Matrix6d PoseCovariance(const PoseTerms& terms) const;
+  // Covariance of the tool pose that the readings of this pose are worth, right perturbation, frame
+  // T; the common error of a static tracker is not in it. Zero where the tool was not seen.
+  Matrix6d ToolCovariance(const PoseTerms& terms) const;
 
   // Degrees of freedom of the readings that the draw takes: the trace of what is told of it by
   // them, given the inverse of the reduced normal matrix of all poses.

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/marker_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "estimator/normal_matrix.h"
+
+namespace hexcal {
+namespace {
+
+constexpr int kMaxRounds = 100;
+// A sigma that changes by less than this part no longer moves the mounts.
+constexpr double kSettled = 1e-9;
+// A change below this that no longer shrinks is rounding.
+constexpr double kStalled = 1e-3;
+// The factor falls at least so fast with sigma, or the secant is not to be trusted.
+constexpr double kSmallestSlope = -0.02;
+
+class Solver {
+ public:
+  Solver(const MarkerObservations& markers,
+         const BaseAndTool& start,
+         const NonlinearOptions& options)
+      : markers_(markers), options_(options), smallest_(SmallestSigma(markers)) {
+    result_.blocks = MarkerLayout(markers.data)
+                         .Start(markers.data, start.world_from_base, start.platform_from_tool);
+  }
+
+  MarkerSolution Run() {
+    if (markers_.sigma) {
+      result_.sigma = *markers_.sigma;
+      result_.solution = Solve();
+      return std::move(result_);
+    }
+    result_.sigma_estimated = true;
+    const std::optional<Eigen::Vector3d> repeats = markers_.pure_error.Sigma();
+    result_.sigma = repeats.value_or(Eigen::Vector3d::Ones());
+    result_.sigma *= Factor();
+    SolveInTurn();
+    if (repeats) result_.over_repeats = result_.sigma.norm() / repeats->norm();
+    return std::move(result_);
+  }
+
+ private:
+  Solution Solve() {
+    const MarkerBatch batch(markers_.data, result_.sigma);
+    return SolveStreamed(batch, options_, &result_.blocks);
+  }
+
+  // Never below rounding.
+  double Factor() const {
+    const MarkerBatch batch(markers_.data, result_.sigma);
+    const Eigen::MatrixXd covariance = MarkerCovariance(Evaluate(batch, result_.blocks));
+    const MarkerFit fit = batch.FitAt(Pointers(result_.blocks).data(), covariance);
+    return std::max(RemlFactor(markers_, fit), smallest_ / result_.sigma.minCoeff());
+  }
+
+  // Without robot noise the mounts do not depend on the level, and the second round only says so.
+  void SolveInTurn() {
+    double last_log_factor = 0.0, last_step = 0.0;
+    for (int round = 0; round < kMaxRounds; ++round) {
+      Append(Solve());
+      if (!result_.solution.converged) return;
+      const double log_factor = std::log(Factor());
+      const double step = Step(log_factor, last_log_factor, last_step);
+      result_.sigma *= std::exp(step);
+      const bool is_at_floor = result_.sigma.minCoeff() <= (1.0 + kStalled) * smallest_;
+      const double change = std::abs(log_factor), last = std::abs(last_log_factor);
+      if (round > 0 && (change < kSettled || is_at_floor || (change < kStalled && change > last)))
+        return;
+      last_log_factor = log_factor;
+      last_step = step;
+    }
+    result_.solution.converged = false;
+    result_.solution.message = "the markers' noise level did not settle";
+  }
+
+  // Of log(sigma), to where the factor is 1: by the secant through the last two, since with robot
+  // noise the factor alone falls short of it.
+  static double Step(double log_factor, double last_log_factor, double last_step) {
+    const double slope = last_step != 0.0 ? (log_factor - last_log_factor) / last_step : -1.0;
+    return std::clamp(slope < kSmallestSlope ? -log_factor / slope : log_factor, -2.0, 2.0);
+  }
+
+  // The records of a later round begin at the end of the one before.
+  void Append(Solution next) {
+    auto records = std::move(result_.solution.iterations);
+    const std::ptrdiff_t skip = records.empty() ? 0 : 1;
+    records.insert(records.end(), next.iterations.begin() + skip, next.iterations.end());
+    next.iterations = std::move(records);
+    result_.solution = std::move(next);
+  }
+
+  static std::vector<const double*> Pointers(const ParameterBlocks& blocks) {
+    std::vector<const double*> pointers;
+    for (const Eigen::VectorXd& block : blocks) pointers.push_back(block.data());
+    return pointers;
+  }
+
+  const MarkerObservations& markers_;
+  const NonlinearOptions& options_;
+  const double smallest_;
+  MarkerSolution result_;
+};
+
+}  // namespace
+
+Eigen::MatrixXd MarkerCovariance(const NormalEquations& equations) {
+  return InverseOfNormal(equations.normal);
+}
+
+double RemlFactor(const MarkerObservations& markers, const MarkerFit& fit) {
+  const double freedom = markers.NumResiduals() - markers.NumParameters() - fit.draw_freedom;
+  return freedom > 0.0 ? std::sqrt(fit.squared_readings / freedom) : 1.0;
+}
+
+double SmallestSigma(const MarkerObservations& markers) {
+  double size = 0.0;
+  for (const MarkerMean& reading : markers.data.readings)
+    size = std::max(size, reading.p_in_tracker.norm());
+  for (const MarkerPose& pose : markers.data.poses)
+    size = std::max(size, pose.base_from_platform.translation.norm());
+  return std::numeric_limits<double>::epsilon() * (size > 0 ? size : 1.0);
+}
+
+MarkerSolution SolveMarkers(const MarkerObservations& markers,
+                            const BaseAndTool& start,
+                            const NonlinearOptions& options) {
+  return Solver(markers, start, options).Run();
+}
+
+}  // namespace hexcal
