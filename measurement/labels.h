@@ -3,7 +3,6 @@
 
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "config/input_error.h"
@@ -29,12 +28,21 @@ class PoseIndex {
   // InputError for a label that stands twice, with both lines.
   explicit PoseIndex(const RobotPoses& robot_poses);
 
-  // The row, or -1. Rows of one pose usually stand together, so the last answer is tried first.
+  // The row, or -1. Rows of one pose usually stand together and poses in the same order in both
+  // tables, so the last answer and the one after it are tried first.
   int Find(std::string_view label);
 
  private:
-  std::unordered_map<std::string_view, int> row_of_label_;
-  std::string_view last_label_;
+  // Open addressing, at most half full: a million labels take one allocation.
+  struct Slot {
+    std::size_t hash = 0;
+    int row = -1;
+  };
+  // That of the label, or the empty one where it belongs.
+  Slot& SlotOf(std::string_view label, std::size_t hash);
+
+  const std::vector<RobotPose>& rows_;
+  std::vector<Slot> slots_;  // a power of two
   int last_row_ = -1;
 };
 

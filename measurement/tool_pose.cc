@@ -184,14 +184,15 @@ class MarkersToPoses {
 ToolPoses FromMeasuredPoses(const Measurement& measurement) {
   ToolPoses result;
   result.has_covariance = measurement.pose_noise.has_value();
+  result.poses.reserve(measurement.poses.size());
   for (const MeasuredPose& measured : measurement.poses) {
     ToolPose tool{measured.pose, measured.world_from_tool, Matrix6d::Zero()};
     if (result.has_covariance) tool.covariance = measurement.pose_noise->Covariance();
     result.poses.push_back(tool);
   }
-  std::sort(result.poses.begin(), result.poses.end(), [](const ToolPose& a, const ToolPose& b) {
-    return a.pose < b.pose;
-  });
+  const auto stands_before = [](const ToolPose& a, const ToolPose& b) { return a.pose < b.pose; };
+  if (!std::is_sorted(result.poses.begin(), result.poses.end(), stands_before))
+    std::sort(result.poses.begin(), result.poses.end(), stands_before);
   return result;
 }
 
