@@ -13,8 +13,10 @@
 #include <vector>
 
 #include "estimator/calibrate.h"
+#include "estimator/calibrate_markers.h"
 #include "estimator/quantiles.h"
-#include "methods.h"
+#include "study_markers.h"
+#include "study_scene.h"
 
 DEFINE_int32(draws, 10000, "draws for each row");
 DEFINE_int32(poses, 0, "this number of poses only");
@@ -41,10 +43,16 @@ Claim NoiseEstimated(const Estimate& estimate) {
           12.0 * FisherFQuantile(kLevel, 12.0, dof)};
 }
 
+// One draw: what was found, and what is true.
+struct Trial {
+  Estimate estimate;
+  BaseAndTool truth;
+};
+
 struct Case {
-  const char* name;
+  std::string name;
   int poses;
-  std::function<Observations(const StudyScene&, int draw)> measure;
+  std::function<Trial(int draw)> run;
   std::function<Claim(const Estimate&)> claim;
 };
 
@@ -53,15 +61,15 @@ struct Coverage {
   double ellipsoid = 0.0;
 };
 
-Coverage Study(const Case& c, const StudyScene& scene) {
+Coverage Study(const Case& c) {
   Coverage coverage;
   const double part = 1.0 / FLAGS_draws;
   for (int i = 0; i < FLAGS_draws; ++i) {
-    const Observations observations = c.measure(scene, i);
-    const Estimate estimate = Calibrate(observations, {}, {});
+    const Trial trial = c.run(i);
+    const Estimate& estimate = trial.estimate;
     CHECK(estimate.IsTrustworthy()) << estimate.message;
     const Claim claim = c.claim(estimate);
-    const Vector12d error = Error(estimate.mounts, scene.truth);
+    const Vector12d error = Error(estimate.mounts, trial.truth);
     const Vector12d width = claim.sigmas.cwiseProduct(estimate.covariance.diagonal().cwiseSqrt());
     coverage.intervals += part * (error.array().abs() <= width.array()).cast<double>().matrix();
     const double distance = error.dot(Vector12d(estimate.covariance.llt().solve(error)));
@@ -70,25 +78,49 @@ Coverage Study(const Case& c, const StudyScene& scene) {
   return coverage;
 }
 
-const std::vector<Case>& Cases() {
-  const auto stated = [](const StudyScene& scene, int draw) { return Draw(scene, draw); };
-  const auto unknown = [](const StudyScene& scene, int draw) { return Draw(scene, draw, false); };
-  static const std::vector<Case> cases = {
-      {"by pose, noise given", 60, stated, NoiseGiven},
-      {"by pose, noise estimated", 60, unknown, NoiseEstimated},
-      {"by pose, noise given", 10, stated, NoiseGiven},
-      {"by pose, noise estimated", 10, unknown, NoiseEstimated},
+std::vector<Case> PoseCases(int poses) {
+  const StudyScene scene = MakeStudyScene(poses, IsotropicNoise(), 100 + poses);
+  const auto run = [scene](bool noise_is_given) {
+    return [scene, noise_is_given](int draw) {
+      return Trial{Calibrate(Draw(scene, draw, noise_is_given), {}, {}), scene.truth};
+    };
   };
-  return cases;
+  return {{"poses; noise given", poses, run(true), NoiseGiven},
+          {"poses; noise estimated", poses, run(false), NoiseEstimated}};
+}
+
+// Each marker unseen in 3 % of the poses; calibrated from the tool poses and from the readings.
+std::vector<Case> MarkerCases(int poses) {
+  const MarkerStudy study = MakeMarkerStudy(poses, 100 + poses);
+  const auto run = [study](bool by_marker, bool noise_is_given) {
+    return [=](int draw) {
+      const Dataset dataset = DrawMarkers(study, draw, noise_is_given, 0.03);
+      const Observations observations = MakeObservations(dataset);
+      return Trial{by_marker
+                       ? CalibrateMarkers(
+                             observations, MakeMarkerObservations(dataset, observations), {}, {})
+                       : Calibrate(observations, {}, {}),
+                   study.truth};
+    };
+  };
+  return {{"markers, by pose; noise given", poses, run(false, true), NoiseGiven},
+          {"markers, by pose; noise estimated", poses, run(false, false), NoiseEstimated},
+          {"markers, by marker; noise given", poses, run(true, true), NoiseGiven},
+          {"markers, by marker; noise estimated", poses, run(true, false), NoiseEstimated}};
 }
 
 void Run() {
   fmt::print(
       "| poses | case | draws | 12 intervals, % | lowest to highest, % | ellipsoid, % |\n"
       "| ---: | --- | ---: | ---: | --- | ---: |\n");
-  for (const Case& c : Cases()) {
-    if (FLAGS_poses != 0 && FLAGS_poses != c.poses) continue;
-    const Coverage coverage = Study(c, MakeStudyScene(c.poses, IsotropicNoise(), 100 + c.poses));
+  std::vector<Case> cases;
+  for (const int poses : {60, 10}) {
+    if (FLAGS_poses != 0 && FLAGS_poses != poses) continue;
+    for (const auto& some : {PoseCases(poses), MarkerCases(poses)})
+      cases.insert(cases.end(), some.begin(), some.end());
+  }
+  for (const Case& c : cases) {
+    const Coverage coverage = Study(c);
     fmt::print("| {} | {} | {} | {:.2f} | {:.2f} to {:.2f} | {:.2f} |\n",
                c.poses,
                c.name,
