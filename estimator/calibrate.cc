@@ -225,7 +225,12 @@ class Calibration {
 Estimate Calibrate(const Observations& observations,
                    const std::optional<BaseAndTool>& initial,
                    const CalibrateOptions& options) {
-  return Calibration(observations, initial, options).Run();
+  return FitAroundOutliers(
+      observations,
+      options.noise,
+      options.outliers,
+      options.snooping,
+      [&](const Observations& some) { return Calibration(some, initial, options).Run(); });
 }
 
 }  // namespace hexcal

@@ -7,6 +7,7 @@
 #include "estimator/estimate.h"
 #include "estimator/linearized.h"
 #include "estimator/nonlinear.h"
+#include "estimator/rejection.h"
 
 namespace hexcal {
 
@@ -20,6 +21,8 @@ struct CalibrateOptions {
   std::optional<NoiseLevels> noise;  // in place of a noise that is not given; else it is estimated
   LinearizedOptions linearized;
   NonlinearOptions nonlinear;
+  OutlierHandling outliers = OutlierHandling::kNotSought;
+  OutlierOptions snooping;  // of the search for them
 };
 
 // Base and tool with covariance. Weights are the inverse covariances of the poses; where the tool's

@@ -8,6 +8,7 @@
 
 #include "estimator/covariance.h"
 #include "estimator/observations.h"
+#include "estimator/outliers.h"
 #include "residuals/pose_error.h"
 
 namespace hexcal {
@@ -61,6 +62,7 @@ struct Estimate {
   std::vector<IterationRecord> iterations;
   std::vector<PoseResult> poses;
   std::optional<Pose3d> tracker_from_world;  // of a tracker that stood still
+  std::vector<Outlier> outliers;  // where they were sought; of weight 0 where they were rejected
 
   NoiseSummary noise;
   double noise_scale = 1.0;  // sqrt(chi_square / degrees_of_freedom)

@@ -187,6 +187,12 @@ RobustStart FindRobustStart(const Observations& observations,
   return {best.mounts, best.levels, all.Nearest(best)};
 }
 
+std::vector<double> SquaredSigmas(const Observations& observations,
+                                  const std::optional<NoiseLevels>& noise,
+                                  const BaseAndTool& mounts) {
+  return Search(observations, noise).Evaluate(mounts).squared_distances;
+}
+
 double SigmaFromMedian(double median, std::size_t n) {
   const double free_share = std::max(1.0 - 2.0 / static_cast<double>(n), 0.1);
   return median / (kMedianOfChi3 * std::sqrt(free_share));

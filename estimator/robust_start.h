@@ -30,6 +30,12 @@ std::size_t HalfOfPoses(std::size_t poses);
 RobustStart FindRobustStart(const Observations& observations,
                             const std::optional<NoiseLevels>& noise);
 
+// Squared lengths of the poses' errors at mounts, in sigmas of the known noise, or of levels from
+// the medians.
+std::vector<double> SquaredSigmas(const Observations& observations,
+                                  const std::optional<NoiseLevels>& noise,
+                                  const BaseAndTool& mounts);
+
 // 1-sigma of one coordinate from the median length of n three-dimensional errors left by a fit of
 // 12 parameters to n poses.
 double SigmaFromMedian(double median, std::size_t n);

@@ -65,6 +65,19 @@ Json Poses(const Estimate& estimate) {
   return list;
 }
 
+Json Outliers(const Estimate& estimate) {
+  Json list = Json::array();
+  for (const Outlier& o : estimate.outliers)
+    list.push_back({{"pose", o.label},
+                    {"reason", o.reason},
+                    {"statistic", o.statistic},
+                    {"p_value", o.p_value},
+                    {"position_sigmas", o.position_sigmas},
+                    {"orientation_sigmas", o.orientation_sigmas},
+                    {"residual", List(o.residual)}});
+  return list;
+}
+
 Json ParameterNames() {
   Json list = Json::array();
   for (const ParameterInfo& p : kParameters) list.push_back(std::string(p.name));
@@ -102,6 +115,7 @@ Json ResultObject(const ResultHeader& header, const Estimate& estimate) {
                              {"condition_number", observability.condition_number},
                              {"weak_directions", observability.weak_directions}};
   result["poses"] = Poses(estimate);
+  result["outliers"] = Outliers(estimate);
   result["effects"] = Json::array();
   result["warnings"] = estimate.warnings;
   return result;

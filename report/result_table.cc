@@ -71,6 +71,23 @@ std::string Summary(const Estimate& e) {
   return text;
 }
 
+// "1 of 40 poses, left out:" and a line for each, but for those that would fill the screen.
+std::string OutlierLines(const Estimate& e) {
+  constexpr std::size_t kMaxLines = 10;
+  if (e.outliers.empty()) return "";
+  const bool rejected = std::any_of(
+      e.poses.begin(), e.poses.end(), [](const PoseResult& pose) { return pose.weight == 0.0; });
+  std::string text = fmt::format("  outliers       {} of {} poses, {}\n",
+                                 e.outliers.size(),
+                                 e.poses.size(),
+                                 rejected ? "left out" : "used all the same");
+  for (std::size_t i = 0; i < std::min(e.outliers.size(), kMaxLines); ++i)
+    text += fmt::format("  {:<14} {}\n", "  pose " + e.outliers[i].label, e.outliers[i].reason);
+  if (e.outliers.size() > kMaxLines)
+    text += fmt::format("    {} more, in result.json\n", e.outliers.size() - kMaxLines);
+  return text;
+}
+
 }  // namespace
 
 Vector6d PoseVectorSigma(const Pose3d& a_from_b, const Matrix6d& covariance) {
@@ -113,7 +130,7 @@ std::string ResultTable(const ResultHeader& header, const Estimate& estimate) {
                         ValueText(base.value[i], base.sigma[i], base.determined[i], unit),
                         ValueText(tool.value[i], tool.sigma[i], tool.determined[i], unit));
   }
-  return text + "\n" + Summary(estimate);
+  return text + "\n" + Summary(estimate) + OutlierLines(estimate);
 }
 
 }  // namespace hexcal
