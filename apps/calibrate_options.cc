@@ -48,6 +48,7 @@ CalibrateOptions CalibrateOptionsFromFlags() {
   if (!FLAGS_start.empty()) options.start = FromName(FLAGS_start, kStarts);
   if (FLAGS_noise_position > 0)
     options.noise = NoiseLevels{FLAGS_noise_position, FLAGS_noise_orientation};
+  options.outliers = FLAGS_outliers == "reject" ? OutlierHandling::kReject : OutlierHandling::kKeep;
   options.linearized.error =
       FLAGS_error == "twist" ? LinearizedOptions::Error::kTwist : LinearizedOptions::Error::kPaper;
   options.linearized.unit_magnitude = FromName(FLAGS_unit_magnitude, kReadings);

@@ -26,6 +26,7 @@ const Command kCalibrate = {
      {"solver"},
      {"residual"},
      {"start"},
+     {"outliers"},
      {"noise_position"},
      {"noise_orientation"},
      {"error"},

@@ -23,6 +23,11 @@ DEFINE_string(start,
               "",
               "Where the solver starts: the best closed form, the dataset's 'initial', the "
               "identity, or one closed form by name.");
+DEFINE_string(
+    outliers,
+    "keep",
+    "Poses that the others contradict (data snooping, one clean dataset in a hundred lists "
+    "one): named and used all the same, or left out, the fit being that of the others.");
 DEFINE_string(error,
               "paper",
               "What the iteration makes small: the difference of pose vectors of Eq. (22), or the "
@@ -75,6 +80,7 @@ std::vector<FlagSpec> MakeSpecs() {
        "closed_form for nonlinear; initial, where the dataset has one, else identity for "
        "linearized",
        {"closed_form", "initial", "identity", "shah", "park_martin"}},
+      {"outliers", kMethod, "", "", {"keep", "reject"}},
       {"noise_position", kNoise, "M", "estimated", {}, {}, 1e-20, 1.0, false, "noise_orientation"},
       {"noise_orientation",
        kNoise,

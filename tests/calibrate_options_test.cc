@@ -23,6 +23,7 @@ TEST_F(CalibrateOptionsTest, WithoutFlagsTheNonlinearSolverEstimatesTheNoise) {
   EXPECT_EQ(options.solver, Solver::kNonlinear);
   EXPECT_FALSE(options.start.has_value());
   EXPECT_FALSE(options.noise.has_value());
+  EXPECT_EQ(options.outliers, OutlierHandling::kKeep);
   EXPECT_EQ(HeaderOf("d", options).error, "");
 }
 
@@ -35,6 +36,7 @@ TEST_F(CalibrateOptionsTest, EveryFlagReachesItsOption) {
   Set("start", "park_martin");
   Set("noise_position", "0.25");
   Set("noise_orientation", "0.5");
+  Set("outliers", "reject");
   const CalibrateOptions options = CalibrateOptionsFromFlags();
   EXPECT_EQ(options.solver, Solver::kLinearized);
   EXPECT_EQ(options.linearized.error, LinearizedOptions::Error::kTwist);
@@ -45,6 +47,7 @@ TEST_F(CalibrateOptionsTest, EveryFlagReachesItsOption) {
   ASSERT_TRUE(options.noise.has_value());
   EXPECT_EQ(options.noise->position, 0.25);
   EXPECT_EQ(options.noise->orientation, 0.5);
+  EXPECT_EQ(options.outliers, OutlierHandling::kReject);
   const ResultHeader header = HeaderOf("d", options);
   EXPECT_EQ(header.dataset, "d");
   EXPECT_EQ(header.solver, "linearized");

@@ -173,6 +173,44 @@ TEST_F(CliCalibrate, WhatTheDataCannotDetermineIsStatusFourAndStillWritten) {
   EXPECT_FALSE(written["observability"]["weak_directions"].empty());
 }
 
+// Sixteen poses, of which the robot reports one 30 mm from where it stood when it was measured.
+TEST_F(CliCalibrate, AnOutlierIsNamedAndLeftOutOnlyWhereThatIsAskedFor) {
+  std::string rows = kGoodRows;
+  for (int i = 0; i < 10; ++i)
+    rows += "    - [g" + std::to_string(i) + ", 0.0" + std::to_string(i) + ", -0.02, 0.4, 0." +
+            std::to_string((7 * i) % 4) + ", -0." + std::to_string((3 * i) % 4) + ", 0." +
+            std::to_string((5 * i) % 3) + "]\n";
+  Make("spoilt", rows);
+  std::string dataset = folder.Read("data/spoilt/poses.csv");
+  ASSERT_NE(dataset.find("b,0.05,"), std::string::npos) << dataset;
+  folder.Write("data/spoilt/poses.csv", dataset.replace(dataset.find("b,0.05,"), 7, "b,0.08,"));
+
+  const ProgramResult kept = Calibrate({"--out=kept"}, "spoilt");
+  EXPECT_EQ(kept.status, 0);
+  EXPECT_THAT(kept.err, HasSubstr("pose b looks like an outlier, but is used: position"));
+  EXPECT_THAT(kept.out, HasSubstr("1 of 16 poses, used all the same"));
+  const auto with = nlohmann::json::parse(Result("kept/spoilt"));
+  EXPECT_EQ(with["outliers"][0]["pose"], "b");
+  EXPECT_EQ(with["poses"][1]["weight"], 1.0);
+
+  const ProgramResult rejected = Calibrate({"--out=rejected", "--outliers=reject"}, "spoilt");
+  EXPECT_EQ(rejected.status, 0);
+  EXPECT_THAT(rejected.err, HasSubstr("1 of 16 poses left out as outliers: b"));
+  EXPECT_THAT(rejected.out, HasSubstr("1 of 16 poses, left out"));
+  const auto without = nlohmann::json::parse(Result("rejected/spoilt"));
+  EXPECT_EQ(without["outliers"][0]["pose"], "b");
+  EXPECT_THAT(std::string(without["outliers"][0]["reason"]), HasSubstr("mm), most along"));
+  EXPECT_EQ(without["poses"][1]["weight"], 0.0);
+  EXPECT_EQ(without["poses"].size(), 16u);
+  EXPECT_LT(without["rmspe"], 0.001);
+  EXPECT_GT(with["rmspe"], 0.002);
+
+  // nothing to leave out
+  ASSERT_EQ(Calibrate({"--out=a"}).status, 0);
+  ASSERT_EQ(Calibrate({"--out=b", "--outliers=reject"}).status, 0);
+  EXPECT_EQ(Result("a/good"), Result("b/good"));
+}
+
 TEST_F(CliCalibrate, ItsOwnResultsAreReplacedAndOthersAreNot) {
   EXPECT_EQ(Calibrate({"--out=out"}).status, 0);
   EXPECT_EQ(Calibrate({"--out=out", "--solver=linearized", "--error=twist"}).status, 0);
@@ -212,6 +250,7 @@ TEST_F(CliCalibrate, FlagsThatDoNotGoTogetherAreWrongUsage) {
   expect_wrong_usage({"--noise_position=0.1"}, "--noise_position needs --noise_orientation");
   expect_wrong_usage({"--solver=linear"}, "found 'linear', expected nonlinear or linearized");
   expect_wrong_usage({"--start=middle"}, "expected closed_form, initial");
+  expect_wrong_usage({"--outliers=drop"}, "found 'drop', expected keep or reject");
   expect_wrong_usage({"--threads=0"}, "expected a whole number from 1 to 1024");
   EXPECT_THAT(folder.Names(), UnorderedElementsAre("d.yaml", "data", "m.yaml"));
 }

@@ -31,6 +31,15 @@ Estimate MakeEstimate() {
   e.converged = true;
   e.iterations = {{5.0, 0.5, 0.25}, {4.0, 0.125, 0.0625}};
   e.poses = {{"p1", 1.0, (Vector6d() << 1, 2, 3, 4, 5, 6).finished()}};
+  Outlier outlier;
+  outlier.label = "p1";
+  outlier.reason = "position 23 sigma off";
+  outlier.residual = (Vector6d() << 11, 12, 13, 14, 15, 16).finished();
+  outlier.position_sigmas = 23.0;
+  outlier.orientation_sigmas = 2.5;
+  outlier.statistic = 531.0;
+  outlier.p_value = 0.0001;
+  e.outliers = {outlier};
   e.noise = {0.0011, 0.0022, true};
   e.noise_scale = 1.5;
   e.rmspe = 0.0033;
@@ -95,6 +104,14 @@ TEST(ResultJson, EveryNumberStandsUnderItsKey) {
   EXPECT_EQ(r["observability"]["condition_number"], 12.0);
   EXPECT_EQ(r["poses"][0]["pose"], "p1");
   EXPECT_EQ(r["poses"][0]["residual"], (Json{1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
+  EXPECT_EQ(r["outliers"][0],
+            (Json{{"pose", "p1"},
+                  {"reason", "position 23 sigma off"},
+                  {"statistic", 531.0},
+                  {"p_value", 0.0001},
+                  {"position_sigmas", 23.0},
+                  {"orientation_sigmas", 2.5},
+                  {"residual", {11.0, 12.0, 13.0, 14.0, 15.0, 16.0}}}));
   EXPECT_EQ(r["warnings"], Json{"a warning"});
 }
 
@@ -153,6 +170,19 @@ TEST(ResultTable, SaysInWordsWhatHasNoNumber) {
 }
 
 // Both mounts' numbers and sigmas stand in their own column.
+TEST(ResultTable, NamesOutliersAndWhetherTheyCount) {
+  Estimate e = MakeEstimate();
+  EXPECT_THAT(ResultTable(kHeader, e),
+              HasSubstr("outliers       1 of 1 poses, used all the same\n"
+                        "    pose p1      position 23 sigma off\n"));
+  e.poses[0].weight = 0.0;
+  EXPECT_THAT(ResultTable(kHeader, e), HasSubstr("outliers       1 of 1 poses, left out\n"));
+  e.outliers.resize(12, e.outliers[0]);
+  EXPECT_THAT(ResultTable(kHeader, e), HasSubstr("2 more, in result.json\n"));
+  e.outliers.clear();
+  EXPECT_THAT(ResultTable(kHeader, e), Not(HasSubstr("outliers")));
+}
+
 TEST(ResultTable, BaseStandsLeftOfTool) {
   Estimate e = MakeEstimate();
   e.mounts = {};
