@@ -21,6 +21,7 @@
 #include "apps/progress.h"
 #include "apps/version.h"
 #include "config/input_error.h"
+#include "estimator/calibrate_markers.h"
 #include "model/machine.h"
 #include "report/result_table.h"
 #include "report/run_record.h"
@@ -47,7 +48,6 @@ struct Job {
 // What came of a dataset: an estimate, or why there is none.
 struct Outcome {
   std::optional<Estimate> estimate;
-  std::optional<Pose3d> world_from_tracker;
   std::string refusal;
   double seconds = 0.0;
 };
@@ -95,6 +95,7 @@ class CalibrateRun {
     std::vector<std::pair<std::string, std::string>> names;
     for (const std::string& file : files_) try {
         datasets.push_back(OpenDataset(file, true));
+        IsByMarkers(datasets.back(), options_);  // wrong usage shows before anything is computed
         names.emplace_back(file, datasets.back().name);
       } catch (const InputError& error) {
         Refuse(error);
@@ -118,9 +119,11 @@ class CalibrateRun {
         throw InputError(
             FileLocation(dataset.path), "no key 'initial'", "a first guess for --start=initial");
       const Observations observations = MakeObservations(dataset);
-      outcome.estimate = Calibrate(observations, initial, options_);
-      if (observations.tracker_from_world)
-        outcome.world_from_tracker = observations.tracker_from_world->Inverse();
+      outcome.estimate =
+          IsByMarkers(dataset, options_)
+              ? CalibrateMarkers(
+                    observations, MakeMarkerObservations(dataset, observations), initial, options_)
+              : Calibrate(observations, initial, options_);
     } catch (const InputError& error) {
       outcome.refusal = error.what();
     }
@@ -132,12 +135,15 @@ class CalibrateRun {
   void Finish(Job* job, const Outcome& outcome) {
     if (!outcome.estimate) return Refuse(InputError(outcome.refusal));
     const Estimate& estimate = *outcome.estimate;
-    const ResultHeader header = HeaderOf(job->dataset.name, options_);
+    const ResultHeader header =
+        HeaderOf(job->dataset.name, options_, IsByMarkers(job->dataset, options_));
     Machine machine{job->dataset.name,
                     estimate.mounts.world_from_base,
                     estimate.mounts.platform_from_tool,
-                    outcome.world_from_tracker,
+                    {},
                     job->dataset.hexapod};
+    if (estimate.tracker_from_world)
+      machine.world_from_tracker = estimate.tracker_from_world->Inverse();
     job->folder.Write("model.yaml", WriteMachine(machine));
     job->folder.Write("run.json", RunJson(RecordOf(job->dataset, outcome.seconds)));
     job->folder.Write("result.json", ResultJson(header, estimate));

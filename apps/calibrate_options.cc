@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/calibrate_options.h"
 
+#include <fmt/format.h>
 #include <glog/logging.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "apps/flags.h"
+#include "apps/usage_error.h"
 
 namespace hexcal {
 namespace {
@@ -57,12 +59,30 @@ CalibrateOptions CalibrateOptionsFromFlags() {
   return options;
 }
 
-ResultHeader HeaderOf(const std::string& dataset, const CalibrateOptions& options) {
+bool IsByMarkers(const Dataset& dataset, const CalibrateOptions& options) {
+  const bool has_markers = dataset.measurement->kind == Measurement::Kind::kMarkers;
+  const bool is_linearized = options.solver == Solver::kLinearized;
+  if (FLAGS_residual == "marker") {
+    if (is_linearized) throw UsageError("--residual=marker goes with --solver=nonlinear only");
+    if (!has_markers)
+      throw UsageError(fmt::format(
+          "--residual=marker: the measurement of {} is of kind poses, it has no markers",
+          dataset.path));
+    return true;
+  }
+  // Noise that is given is of poses.
+  const bool has_use_for_noise = options.noise && !dataset.measurement->marker_sigma;
+  return FLAGS_residual.empty() && has_markers && !is_linearized && !has_use_for_noise;
+}
+
+ResultHeader HeaderOf(const std::string& dataset,
+                      const CalibrateOptions& options,
+                      bool by_markers) {
   const bool linearized = options.solver == Solver::kLinearized;
   const bool paper = options.linearized.error == LinearizedOptions::Error::kPaper;
   return {dataset,
           linearized ? "linearized" : "nonlinear",
-          "pose",
+          by_markers ? "marker" : "pose",
           !linearized ? ""
           : paper     ? "paper"
                       : "twist"};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "estimator/calibrate.h"
+#include "measurement/dataset.h"
 #include "report/result_json.h"
 
 namespace hexcal {
@@ -9,7 +10,11 @@ namespace hexcal {
 // The flags of calibrate as the estimator's options.
 CalibrateOptions CalibrateOptionsFromFlags();
 
+// Whether --residual makes this dataset's calibration one by marker readings. UsageError where it
+// asks for what the dataset or the solver does not have.
+bool IsByMarkers(const Dataset& dataset, const CalibrateOptions& options);
+
 // What a result of these options says of how it was made.
-ResultHeader HeaderOf(const std::string& dataset, const CalibrateOptions& options);
+ResultHeader HeaderOf(const std::string& dataset, const CalibrateOptions& options, bool by_markers);
 
 }  // namespace hexcal

@@ -92,8 +92,6 @@ std::string ExpectedText(const FlagSpec& spec) {
 }
 
 std::optional<std::string> SetFlag(const FlagSpec& spec, std::string_view text) {
-  if (std::find(spec.later.begin(), spec.later.end(), text) != spec.later.end())
-    return fmt::format("{} ('{}' is not in this version)", ExpectedText(spec), text);
   const std::optional<std::string> value = Canonical(spec, text);
   if (!value) return ExpectedText(spec);
   const std::string name(spec.name);

@@ -17,8 +17,9 @@ DEFINE_string(
     "How base and tool are found: by the weighted nonlinear problem, or by the linearized "
     "iteration of the paper.");
 DEFINE_string(residual,
-              "pose",
-              "What is compared with the prediction: the measured poses of the tool.");
+              "",
+              "What is compared with the prediction: the readings of all markers (maximum "
+              "likelihood), or the poses of the tool that they make.");
 DEFINE_string(start,
               "",
               "Where the solver starts: the best closed form, the dataset's 'initial', the "
@@ -73,7 +74,11 @@ std::vector<FlagSpec> MakeSpecs() {
       {"force", kResults, "", ""},
       {"model", kMethod, "FILE", ""},
       {"solver", kMethod, "", "", {"nonlinear", "linearized"}},
-      {"residual", kMethod, "", "", {"pose"}, {"marker"}},
+      {"residual",
+       kMethod,
+       "",
+       "marker where markers were measured and the solver is nonlinear, else pose",
+       {"marker", "pose"}},
       {"start",
        kMethod,
        "",
@@ -81,29 +86,20 @@ std::vector<FlagSpec> MakeSpecs() {
        "linearized",
        {"closed_form", "initial", "identity", "shah", "park_martin"}},
       {"outliers", kMethod, "", "", {"keep", "reject"}},
-      {"noise_position", kNoise, "M", "estimated", {}, {}, 1e-20, 1.0, false, "noise_orientation"},
-      {"noise_orientation",
-       kNoise,
-       "RAD",
-       "estimated",
-       {},
-       {},
-       1e-20,
-       1.0,
-       false,
-       "noise_position"},
-      {"noise", kNoise, "FACTOR", "", {}, {}, 0.0, 1e6},
-      {"seed", kNoise, "N", "", {}, {}, 0.0},
+      {"noise_position", kNoise, "M", "estimated", {}, 1e-20, 1.0, false, "noise_orientation"},
+      {"noise_orientation", kNoise, "RAD", "estimated", {}, 1e-20, 1.0, false, "noise_position"},
+      {"noise", kNoise, "FACTOR", "", {}, 0.0, 1e6},
+      {"seed", kNoise, "N", "", {}, 0.0},
       {"error", kLinearized, "", "", {"paper", "twist"}},
       {"unit_magnitude",
        kLinearized,
        "",
        "",
        {"approach_first", "normal_first", "nearest_rotation", "columns", "rows"}},
-      {"iterations", kLinearized, "N", "", {}, {}, 1, 10000},
-      {"tolerance", kLinearized, "STEP", "", {}, {}, 0.0, 1.0, true},
+      {"iterations", kLinearized, "N", "", {}, 1, 10000},
+      {"tolerance", kLinearized, "STEP", "", {}, 0.0, 1.0, true},
       {"config", kRunning, "FILE.yaml", ""},
-      {"threads", kRunning, "N", "all cores", {}, {}, 1, 1024},
+      {"threads", kRunning, "N", "all cores", {}, 1, 1024},
   };
   for (FlagSpec& spec : specs) {
     if (spec.group != kLinearized) continue;

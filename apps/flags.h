@@ -38,7 +38,6 @@ struct FlagSpec {
   std::string_view value;         // stands for the value in help; a switch has none
   std::string_view default_text;  // in words, where gflags' default is not one
   std::vector<std::string_view> choices = {};
-  std::vector<std::string_view> later = {};  // known values that this version does not have
   double low = -std::numeric_limits<double>::infinity();  // numbers: the range, both ends allowed
   double high = std::numeric_limits<double>::infinity();
   bool low_excluded = false;

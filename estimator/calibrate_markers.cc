@@ -26,6 +26,9 @@ Estimate CalibrateMarkers(const Observations& observations,
 
   Estimate estimate;
   estimate.warnings = observations.warnings;
+  if (options.noise)
+    estimate.warnings.push_back(
+        "the noise that was given is of measured poses; a calibration by markers does not use it");
   estimate.mounts = solution.solution.mounts;
   estimate.converged = start.converged && solution.solution.converged;
   estimate.message = start.converged ? solution.solution.message : start.message;

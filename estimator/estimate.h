@@ -44,6 +44,9 @@ struct PoseResult {
 
 // On which side of the loop the noise is taken to be.
 enum class NoiseSide { kTracker, kRobot, kBoth };
+constexpr std::string_view NameOf(NoiseSide side) {
+  return side == NoiseSide::kBoth ? "both" : side == NoiseSide::kRobot ? "robot" : "tracker";
+}
 
 struct NoiseSummary {
   double position = 0.0;     // 1-sigma of a coordinate, m: the mean over poses and axes

@@ -60,8 +60,12 @@ Json Iterations(const Estimate& estimate) {
 
 Json Poses(const Estimate& estimate) {
   Json list = Json::array();
-  for (const PoseResult& p : estimate.poses)
-    list.push_back({{"pose", p.label}, {"weight", p.weight}, {"residual", List(p.residual)}});
+  for (const PoseResult& p : estimate.poses) {
+    Json pose = {{"pose", p.label}, {"weight", p.weight}, {"residual", List(p.residual)}};
+    for (const MarkerMisfit& m : p.markers)
+      pose["markers"].push_back({{"marker", m.marker}, {"residual", List(m.residual)}});
+    list.push_back(std::move(pose));
+  }
   return list;
 }
 
@@ -76,6 +80,15 @@ Json Outliers(const Estimate& estimate) {
                     {"orientation_sigmas", o.orientation_sigmas},
                     {"residual", List(o.residual)}});
   return list;
+}
+
+Json Noise(const NoiseSummary& noise) {
+  Json object = {{"position", noise.position},
+                 {"orientation", noise.orientation},
+                 {"estimated", noise.estimated},
+                 {"assumed", std::string(NameOf(noise.assumed))}};
+  if (noise.marker) object["marker"] = List(*noise.marker);
+  return object;
 }
 
 Json ParameterNames() {
@@ -102,9 +115,7 @@ Json ResultObject(const ResultHeader& header, const Estimate& estimate) {
   result["covariance_unscaled"] = CovarianceRows(estimate.covariance_unscaled, observability);
   result["standard_deviation_unscaled"] =
       StandardDeviations(estimate.covariance_unscaled, observability);
-  result["noise"] = {{"position", estimate.noise.position},
-                     {"orientation", estimate.noise.orientation},
-                     {"estimated", estimate.noise.estimated}};
+  result["noise"] = Noise(estimate.noise);
   result["noise_scale"] = estimate.noise_scale;
   result["rmspe"] = estimate.rmspe;
   result["rmsoe"] = estimate.rmsoe;

@@ -53,6 +53,12 @@ MountRows Rows(const Pose3d& pose, const Estimate& estimate, int first) {
   return rows;
 }
 
+// One number where the axes are equal, else three.
+std::string SigmaText(const Eigen::Vector3d& sigma) {
+  if (sigma.isConstant(sigma.x(), 0.0)) return fmt::format("{:.4g}", 1e3 * sigma.x());
+  return fmt::format("{:.4g} {:.4g} {:.4g}", 1e3 * sigma.x(), 1e3 * sigma.y(), 1e3 * sigma.z());
+}
+
 std::string Summary(const Estimate& e) {
   std::string text = fmt::format("  left over      {:.4g} mm and {:.4g} mrad RMS (RMSPE, RMSOE)\n",
                                  1e3 * e.rmspe,
@@ -61,6 +67,11 @@ std::string Summary(const Estimate& e) {
                       1e3 * e.noise.position,
                       1e3 * e.noise.orientation,
                       e.noise.estimated ? "estimated from what is left over" : "as stated");
+  if (e.noise.assumed != NoiseSide::kTracker)
+    text += fmt::format("                 of {}\n",
+                        e.noise.assumed == NoiseSide::kBoth ? "tracker and robot" : "the robot");
+  if (e.noise.marker)
+    text += fmt::format("  marker noise   {} mm a reading\n", SigmaText(*e.noise.marker));
   text += fmt::format("  chi-square     {:.5g} with {} degrees of freedom (noise scale {:.3f})\n",
                       e.chi_square,
                       e.degrees_of_freedom,
@@ -114,8 +125,9 @@ Vector6d PoseVectorSigma(const Pose3d& a_from_b, const Matrix6d& covariance) {
 std::string ResultTable(const ResultHeader& header, const Estimate& estimate) {
   const MountRows base = Rows(estimate.mounts.world_from_base, estimate, 0);
   const MountRows tool = Rows(estimate.mounts.platform_from_tool, estimate, 6);
-  const std::string how =
+  std::string how =
       header.error.empty() ? header.solver : header.solver + " (" + header.error + ")";
+  how += header.residual == "marker" ? " by markers" : " by poses";
   std::string text = fmt::format("{}: {} poses, {}, {} after {} iterations\n\n",
                                  header.dataset,
                                  estimate.poses.size(),

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/flags.h"
+#include "apps/usage_error.h"
 
 namespace hexcal {
 namespace {
@@ -24,7 +25,7 @@ TEST_F(CalibrateOptionsTest, WithoutFlagsTheNonlinearSolverEstimatesTheNoise) {
   EXPECT_FALSE(options.start.has_value());
   EXPECT_FALSE(options.noise.has_value());
   EXPECT_EQ(options.outliers, OutlierHandling::kKeep);
-  EXPECT_EQ(HeaderOf("d", options).error, "");
+  EXPECT_EQ(HeaderOf("d", options, false).error, "");
 }
 
 TEST_F(CalibrateOptionsTest, EveryFlagReachesItsOption) {
@@ -48,7 +49,7 @@ TEST_F(CalibrateOptionsTest, EveryFlagReachesItsOption) {
   EXPECT_EQ(options.noise->position, 0.25);
   EXPECT_EQ(options.noise->orientation, 0.5);
   EXPECT_EQ(options.outliers, OutlierHandling::kReject);
-  const ResultHeader header = HeaderOf("d", options);
+  const ResultHeader header = HeaderOf("d", options, false);
   EXPECT_EQ(header.dataset, "d");
   EXPECT_EQ(header.solver, "linearized");
   EXPECT_EQ(header.error, "twist");
@@ -63,6 +64,35 @@ TEST_F(CalibrateOptionsTest, EveryChoiceOfAFlagHasAValue) {
     }
   Set("solver", "linearized");
   EXPECT_EQ(CalibrateOptionsFromFlags().linearized.error, LinearizedOptions::Error::kPaper);
+}
+
+// Readings of markers are used as such unless something else is asked for.
+TEST_F(CalibrateOptionsTest, TheResidualFollowsFromTheMeasurementTheSolverAndTheNoise) {
+  Dataset markers, poses;
+  markers.measurement.emplace().kind = Measurement::Kind::kMarkers;
+  poses.measurement.emplace();
+  const auto is_by_markers = [](const Dataset& dataset) {
+    return IsByMarkers(dataset, CalibrateOptionsFromFlags());
+  };
+  EXPECT_TRUE(is_by_markers(markers));
+  EXPECT_FALSE(is_by_markers(poses));
+  Set("residual", "pose");
+  EXPECT_FALSE(is_by_markers(markers));
+  Set("residual", "marker");
+  EXPECT_TRUE(is_by_markers(markers));
+  EXPECT_THROW(is_by_markers(poses), UsageError);
+  Set("solver", "linearized");
+  EXPECT_THROW(is_by_markers(markers), UsageError);
+  Set("residual", "");
+  EXPECT_FALSE(is_by_markers(markers));
+  Set("solver", "nonlinear");
+  Set("noise_position", "0.25");
+  Set("noise_orientation", "0.5");
+  EXPECT_FALSE(is_by_markers(markers));
+  markers.measurement->marker_sigma = Eigen::Vector3d::Ones();
+  EXPECT_TRUE(is_by_markers(markers));
+  EXPECT_EQ(HeaderOf("d", CalibrateOptionsFromFlags(), true).residual, "marker");
+  EXPECT_EQ(HeaderOf("d", CalibrateOptionsFromFlags(), false).residual, "pose");
 }
 
 }  // namespace

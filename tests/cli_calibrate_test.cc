@@ -106,7 +106,7 @@ TEST_F(CliCalibrate, TheModelGoesBackIn) {
   EXPECT_EQ(Call(predict).status, 0);
 }
 
-// Markers of a tracker that stood still: the model also says where it stood.
+// Markers of a tracker that stood still: the model also says where it stood, by either residual.
 TEST_F(CliCalibrate, AStaticTrackersPlaceIsInTheModel) {
   folder.Write(
       "d.yaml",
@@ -121,12 +121,21 @@ TEST_F(CliCalibrate, AStaticTrackersPlaceIsInTheModel) {
   ASSERT_EQ(
       Call({"simulate", "d.yaml", "--model=m.yaml", "--out=data", "--quiet", "--noise=0"}).status,
       0);
-  const ProgramResult result = Calibrate({"--out=out"}, "still");
-  EXPECT_EQ(result.status, 0) << result.err;
-  const Machine found = ReadMachine(folder.Path("out/still/model.yaml"));
-  ASSERT_TRUE(found.world_from_tracker.has_value());
   const Pose3d tracker_from_world{Eigen::Vector3d(1, 2, 3), Eigen::Quaterniond(0.6, 0, 0.8, 0)};
-  EXPECT_TRUE(PoseNear(*found.world_from_tracker, tracker_from_world.Inverse(), 1e-9, 1e-9));
+  for (const std::string residual : {"marker", "pose"}) {
+    const ProgramResult result =
+        Calibrate({"--out=" + residual, "--residual=" + residual}, "still");
+    EXPECT_EQ(result.status, 0) << result.err;
+    const Machine found = ReadMachine(folder.Path(residual + "/still/model.yaml"));
+    ASSERT_TRUE(found.world_from_tracker.has_value());
+    EXPECT_TRUE(PoseNear(*found.world_from_tracker, tracker_from_world.Inverse(), 1e-9, 1e-9));
+    const nlohmann::json json = nlohmann::json::parse(Result(residual + "/still"));
+    EXPECT_EQ(json["residual"], residual);
+    EXPECT_EQ(json["poses"][2].contains("markers"), residual == "marker");
+  }
+  // Markers are the default.
+  EXPECT_EQ(Calibrate({"--out=out"}, "still").status, 0);
+  EXPECT_EQ(Result("out/still"), Result("marker/still"));
 }
 
 TEST_F(CliCalibrate, TheResultSaysWhatItIs) {
@@ -245,7 +254,10 @@ TEST_F(CliCalibrate, FlagsThatDoNotGoTogetherAreWrongUsage) {
     EXPECT_EQ(result.status, 2) << message;
     EXPECT_THAT(result.err, HasSubstr(message));
   };
-  expect_wrong_usage({"--residual=marker"}, "'marker' is not in this version");
+  expect_wrong_usage({"--residual=marker"}, "is of kind poses, it has no markers");
+  expect_wrong_usage({"--residual=markers"}, "found 'markers', expected marker or pose");
+  expect_wrong_usage({"--residual=marker", "--solver=linearized"},
+                     "--residual=marker goes with --solver=nonlinear only");
   expect_wrong_usage({"--error=paper"}, "--error has an effect only with --solver=linearized");
   expect_wrong_usage({"--noise_position=0.1"}, "--noise_position needs --noise_orientation");
   expect_wrong_usage({"--solver=linear"}, "found 'linear', expected nonlinear or linearized");

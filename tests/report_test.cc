@@ -94,7 +94,11 @@ TEST(ResultJson, EveryNumberStandsUnderItsKey) {
   EXPECT_EQ(r["covariance"][0][7], e.covariance(0, 7));
   EXPECT_EQ(r["covariance_unscaled"][0][7], e.covariance_unscaled(0, 7));
   EXPECT_NEAR(r["correlation"][7][0], 0.5, 1e-15);
-  EXPECT_EQ(r["noise"], (Json{{"position", 0.0011}, {"orientation", 0.0022}, {"estimated", true}}));
+  EXPECT_EQ(r["noise"],
+            (Json{{"position", 0.0011},
+                  {"orientation", 0.0022},
+                  {"estimated", true},
+                  {"assumed", "tracker"}}));
   EXPECT_EQ(r["noise_scale"], 1.5);
   EXPECT_EQ(r["rmspe"], 0.0033);
   EXPECT_EQ(r["rmsoe"], 0.0044);
@@ -113,6 +117,24 @@ TEST(ResultJson, EveryNumberStandsUnderItsKey) {
                   {"orientation_sigmas", 2.5},
                   {"residual", {11.0, 12.0, 13.0, 14.0, 15.0, 16.0}}}));
   EXPECT_EQ(r["warnings"], Json{"a warning"});
+}
+
+TEST(ResultJson, OfMarkersHasEachMarkersResidualAndNoise) {
+  Estimate e = MakeEstimate();
+  EXPECT_FALSE(Json::parse(ResultJson(kHeader, e))["poses"][0].contains("markers"));
+  e.poses[0].markers = {{"base/b1", Eigen::Vector3d(7, 8, 9)},
+                        {"tool/t2", Eigen::Vector3d(1, 0, 2)}};
+  e.noise.marker = Eigen::Vector3d(0.25, 0.5, 0.75);
+  e.noise.assumed = NoiseSide::kBoth;
+  const Json r = Json::parse(ResultJson({"demo", "nonlinear", "marker", ""}, e));
+  EXPECT_EQ(r["residual"], "marker");
+  EXPECT_EQ(r["poses"][0]["markers"],
+            (Json{{{"marker", "base/b1"}, {"residual", {7.0, 8.0, 9.0}}},
+                  {{"marker", "tool/t2"}, {"residual", {1.0, 0.0, 2.0}}}}));
+  EXPECT_EQ(r["noise"]["marker"], (Json{0.25, 0.5, 0.75}));
+  EXPECT_EQ(r["noise"]["assumed"], "both");
+  e.noise.assumed = NoiseSide::kRobot;
+  EXPECT_EQ(Json::parse(ResultJson(kHeader, e))["noise"]["assumed"], "robot");
 }
 
 TEST(ResultJson, OneLineIsTheSameObject) {
@@ -142,7 +164,8 @@ TEST(ResultTable, IsInMillimetresAndMilliradiansWithTheSigmaOfEachNumber) {
   Estimate e = MakeEstimate();
   e.mounts.world_from_base = {Eigen::Vector3d(1, -2, 3), Eigen::Quaterniond::Identity()};
   const std::string table = ResultTable(kHeader, e);
-  EXPECT_THAT(table, HasSubstr("demo: 1 poses, linearized (twist), converged after 1 iterations"));
+  EXPECT_THAT(
+      table, HasSubstr("demo: 1 poses, linearized (twist) by poses, converged after 1 iterations"));
   // sigma of base.dy = 1.5 * 2e-5 m, of base.rz = 1.5 * 6e-5 rad.
   EXPECT_THAT(table, HasSubstr("-2000.000 mm   ± 0.030"));
   EXPECT_THAT(table, HasSubstr("0.000 mrad ± 0.090"));
@@ -150,6 +173,22 @@ TEST(ResultTable, IsInMillimetresAndMilliradiansWithTheSigmaOfEachNumber) {
   EXPECT_THAT(table, HasSubstr("1.1 mm and 2.2 mrad a coordinate, estimated"));
   EXPECT_THAT(table, HasSubstr("270 with 120 degrees of freedom (noise scale 1.500)"));
   EXPECT_THAT(table, Not(HasSubstr("undetermined")));
+}
+
+TEST(ResultTable, OfMarkersSaysTheirNoiseAndWhoseItIs) {
+  Estimate e = MakeEstimate();
+  const ResultHeader header = {"demo", "nonlinear", "marker", ""};
+  EXPECT_THAT(ResultTable(header, e), Not(HasSubstr("marker noise")));
+  EXPECT_THAT(ResultTable(header, e), HasSubstr("nonlinear by markers"));
+  e.noise.marker = Eigen::Vector3d(1e-4, 1e-4, 1e-4);
+  EXPECT_THAT(ResultTable(header, e), HasSubstr("marker noise   0.1 mm a reading"));
+  EXPECT_THAT(ResultTable(header, e), Not(HasSubstr("robot")));
+  e.noise.marker->z() = 3e-4;
+  e.noise.assumed = NoiseSide::kBoth;
+  EXPECT_THAT(ResultTable(header, e), HasSubstr("marker noise   0.1 0.1 0.3 mm a reading"));
+  EXPECT_THAT(ResultTable(header, e), HasSubstr("of tracker and robot"));
+  e.noise.assumed = NoiseSide::kRobot;
+  EXPECT_THAT(ResultTable(header, e), HasSubstr("of the robot"));
 }
 
 TEST(ResultTable, SaysInWordsWhatHasNoNumber) {
