@@ -17,6 +17,22 @@ namespace {
 // With so much more left over than repeated frames scatter, something besides noise is in it.
 constexpr double kDoubtfulScale = 2.0;
 
+std::vector<std::vector<MarkerMisfit>> ByItem(const MarkerObservations& markers,
+                                              std::size_t items,
+                                              const MarkerFit& fit) {
+  std::vector<std::vector<MarkerMisfit>> lists(items);
+  for (std::size_t i = 0; i < markers.data.poses.size(); ++i) {
+    if (markers.item_of_pose[i] < 0) continue;
+    const MarkerPose& pose = markers.data.poses[i];
+    for (int r = pose.first_base; r < pose.end; ++r) {
+      const int body = r < pose.first_tool ? 0 : 1;
+      lists[markers.item_of_pose[i]].push_back(
+          {markers.labels[body][markers.data.readings[r].marker], fit.misfits[r]});
+    }
+  }
+  return lists;
+}
+
 class MarkerJudgement {
  public:
   MarkerJudgement(const Observations& observations,
@@ -29,9 +45,7 @@ class MarkerJudgement {
         estimate_(*estimate),
         batch_(markers.data, solution.sigma),
         equations_(Evaluate(batch_, solution.blocks)) {
-    std::vector<const double*> pointers;
-    for (const Eigen::VectorXd& block : solution.blocks) pointers.push_back(block.data());
-    fit_ = batch_.FitAt(pointers.data(), MarkerCovariance(equations_));
+    fit_ = FitOf(batch_, solution.blocks, equations_);
   }
 
   void Run() {
@@ -52,17 +66,10 @@ class MarkerJudgement {
     }
     estimate_.rmspe = rms.Position();
     estimate_.rmsoe = rms.Orientation();
-    const MarkerData& data = markers_.data;
-    for (std::size_t i = 0; i < data.poses.size(); ++i) {
-      if (markers_.item_of_pose[i] < 0) continue;
-      auto& list = estimate_.poses[markers_.item_of_pose[i]].markers;
-      const MarkerPose& pose = data.poses[i];
-      for (int r = pose.first_base; r < pose.end; ++r) {
-        const int body = r < pose.first_tool ? 0 : 1;
-        list.push_back({markers_.labels[body][data.readings[r].marker], fit_.misfits[r]});
-      }
-    }
-    if (data.tracker_is_static) estimate_.tracker_from_world = fit_.tracker_from_world[0];
+    auto misfits = ByItem(markers_, estimate_.poses.size(), fit_);
+    for (std::size_t i = 0; i < misfits.size(); ++i)
+      estimate_.poses[i].markers = std::move(misfits[i]);
+    if (markers_.data.tracker_is_static) estimate_.tracker_from_world = fit_.tracker_from_world[0];
     estimate_.chi_square = fit_.squared_readings + fit_.squared_draws;
   }
 
@@ -137,6 +144,14 @@ class MarkerJudgement {
 };
 
 }  // namespace
+
+std::vector<std::vector<MarkerMisfit>> MisfitsByItem(const MarkerObservations& markers,
+                                                     std::size_t items,
+                                                     const MarkerSolution& solution) {
+  const MarkerBatch batch(markers.data, solution.sigma);
+  const NormalEquations equations = Evaluate(batch, solution.blocks);
+  return ByItem(markers, items, FitOf(batch, solution.blocks, equations));
+}
 
 void JudgeMarkers(const Observations& observations,
                   const MarkerObservations& markers,

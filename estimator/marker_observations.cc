@@ -202,6 +202,40 @@ int MarkerObservations::NumParameters() const {
   return MarkerLayout(data).size + Pose3d::kNumDof * own_trackers;
 }
 
+MarkerObservations Restricted(const MarkerObservations& markers,
+                              const Observations& all,
+                              const Observations& some) {
+  std::vector<int> new_item(all.items.size(), -1);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < all.items.size(); ++i)
+    if (next < some.items.size() && some.items[next].label == all.items[i].label)
+      new_item[i] = static_cast<int>(next++);
+  CHECK_EQ(next, some.items.size()) << "these are not items of all";
+
+  MarkerObservations kept = markers;
+  kept.data.poses.clear();
+  kept.data.readings.clear();
+  kept.item_of_pose.clear();
+  for (std::size_t i = 0; i < markers.data.poses.size(); ++i) {
+    const int old_item = markers.item_of_pose[i];
+    const int item = old_item < 0 ? -1 : new_item[old_item];
+    const bool is_tool_kept = item >= 0;
+    if (!is_tool_kept && !markers.data.tracker_is_static) continue;
+    MarkerPose pose = markers.data.poses[i];
+    const auto first = markers.data.readings.begin();
+    const int end = is_tool_kept ? pose.end : pose.first_tool;
+    if (end == pose.first_base) continue;
+    const int shift = static_cast<int>(kept.data.readings.size()) - pose.first_base;
+    kept.data.readings.insert(kept.data.readings.end(), first + pose.first_base, first + end);
+    pose.first_base += shift;
+    pose.first_tool += shift;
+    pose.end = end + shift;
+    kept.data.poses.push_back(pose);
+    kept.item_of_pose.push_back(item);
+  }
+  return kept;
+}
+
 MarkerObservations MakeMarkerObservations(const Dataset& dataset,
                                           const Observations& observations) {
   return Maker(dataset, observations).Run();

@@ -41,4 +41,10 @@ struct MarkerObservations {
 // the base markers seen in the others are read too.
 MarkerObservations MakeMarkerObservations(const Dataset& dataset, const Observations& observations);
 
+// The same without the poses whose items are not among some, which must be items of all in their
+// order. Readings of a static tracker's base stay.
+MarkerObservations Restricted(const MarkerObservations& markers,
+                              const Observations& all,
+                              const Observations& some);
+
 }  // namespace hexcal

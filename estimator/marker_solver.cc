@@ -52,8 +52,7 @@ class Solver {
   // Never below rounding.
   double Factor() const {
     const MarkerBatch batch(markers_.data, result_.sigma);
-    const Eigen::MatrixXd covariance = MarkerCovariance(Evaluate(batch, result_.blocks));
-    const MarkerFit fit = batch.FitAt(Pointers(result_.blocks).data(), covariance);
+    const MarkerFit fit = FitOf(batch, result_.blocks, Evaluate(batch, result_.blocks));
     return std::max(RemlFactor(markers_, fit), smallest_ / result_.sigma.minCoeff());
   }
 
@@ -93,12 +92,6 @@ class Solver {
     result_.solution = std::move(next);
   }
 
-  static std::vector<const double*> Pointers(const ParameterBlocks& blocks) {
-    std::vector<const double*> pointers;
-    for (const Eigen::VectorXd& block : blocks) pointers.push_back(block.data());
-    return pointers;
-  }
-
   const MarkerObservations& markers_;
   const NonlinearOptions& options_;
   const double smallest_;
@@ -107,8 +100,12 @@ class Solver {
 
 }  // namespace
 
-Eigen::MatrixXd MarkerCovariance(const NormalEquations& equations) {
-  return InverseOfNormal(equations.normal);
+MarkerFit FitOf(const MarkerBatch& batch,
+                const ParameterBlocks& blocks,
+                const NormalEquations& equations) {
+  std::vector<const double*> pointers;
+  for (const Eigen::VectorXd& block : blocks) pointers.push_back(block.data());
+  return batch.FitAt(pointers.data(), InverseOfNormal(equations.normal));
 }
 
 double RemlFactor(const MarkerObservations& markers, const MarkerFit& fit) {

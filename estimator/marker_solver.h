@@ -10,8 +10,10 @@
 
 namespace hexcal {
 
-// Covariance of all common unknowns, tangent space: the inverse of the reduced normal matrix.
-Eigen::MatrixXd MarkerCovariance(const NormalEquations& equations);
+// What the likelihood is made of there; equations: of that point.
+MarkerFit FitOf(const MarkerBatch& batch,
+                const ParameterBlocks& blocks,
+                const NormalEquations& equations);
 
 // By what factor sigma would have to be multiplied for the restricted likelihood of the readings to
 // be largest, everything else as it is (one variance component; Harville, J. Am. Stat. Assoc. 72

@@ -129,7 +129,7 @@ TEST(CalibrateMarkers, FindsTheNoiseLevel) {
     MarkerScene scene = Scene(false, false, robot_noise);
     scene.sigma.setConstant(2e-4);
     scene.frames = 1;
-    const Repeats r = Repeat(MakeMarkerTruth(rng, scene), false, 300);
+    const Repeats r = Repeat(MakeMarkerTruth(rng, scene), false, 150);
     EXPECT_NEAR(r.sigma.x() / 2e-4, 1.0, 0.02);
     EXPECT_EQ(r.sigma.x(), r.sigma.z());
     EXPECT_NEAR(r.chi_square, 1.0, robot_noise > 0 ? 0.02 : 1e-6);
@@ -238,6 +238,51 @@ TEST(CalibrateMarkers, OfCentroidBodiesIsBetterThanByPoses) {
     EXPECT_NEAR(std::sqrt(squared[i] / saved[i]), 1.0, 0.2) << kParameters[i].name;
   EXPECT_GT(gain.maxCoeff(), 1.5);
   EXPECT_GT(gain.minCoeff(), 1.0);
+}
+
+// A pose whose tool was moved: out of the fit, with what is left of its markers.
+TEST(CalibrateMarkers, LeavesOutliersOut) {
+  auto rng = SeededByTest();
+  for (const bool is_static : {false, true}) {
+    MarkerScene scene = Scene(is_static, false, 0.0);
+    scene.poses = 30;
+    const MarkerTruth truth = MakeMarkerTruth(rng, scene);
+    const Dataset clean = DrawMarkers(truth, 1);
+    Dataset spoilt = clean, without = clean;
+    for (MarkerReading& r : spoilt.measurement->readings)
+      if (r.pose == 7 && r.body == BodyId::kTool) r.p_in_tracker.x() += 0.05;
+    auto& readings = without.measurement->readings;
+    readings.erase(std::remove_if(readings.begin(),
+                                  readings.end(),
+                                  [](const MarkerReading& r) {
+                                    return r.pose == 7 && r.body == BodyId::kTool;
+                                  }),
+                   readings.end());
+    CalibrateOptions options;
+    options.outliers = OutlierHandling::kReject;
+    const Observations observations = MakeObservations(spoilt);
+    const Estimate e =
+        CalibrateMarkers(observations, MakeMarkerObservations(spoilt, observations), {}, options);
+    const Estimate expected = CalibrateByMarkers(without);
+    ASSERT_EQ(e.outliers.size(), 1u);
+    EXPECT_EQ(e.outliers[0].label, "p8");
+    EXPECT_LT(Difference(e.mounts, expected.mounts).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_TRUE(testing::MatrixNear(e.covariance, expected.covariance, 1e-16));
+    EXPECT_EQ(e.degrees_of_freedom, expected.degrees_of_freedom);
+    ASSERT_EQ(e.poses.size(), 30u);
+    EXPECT_EQ(e.poses[7].weight, 0.0);
+    ASSERT_FALSE(e.poses[7].markers.empty());
+    double largest = 0.0;
+    for (const MarkerMisfit& m : e.poses[7].markers) largest = std::max(largest, m.residual.norm());
+    // A tracker that may turn takes most of a shift 2 m away as its own turn.
+    EXPECT_GT(largest, is_static ? 0.03 : 0.003);
+    EXPECT_EQ(e.poses[8].markers.back().residual, expected.poses[7].markers.back().residual);
+    options.outliers = OutlierHandling::kKeep;
+    const Estimate kept =
+        CalibrateMarkers(observations, MakeMarkerObservations(spoilt, observations), {}, options);
+    ASSERT_EQ(kept.outliers.size(), 1u);
+    EXPECT_EQ(kept.poses[7].weight, 1.0);
+  }
 }
 
 TEST(CalibrateMarkers, SaysWhichSideTheNoiseIsOn) {
