@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <utility>
 
 #include "estimator/calibrate.h"
 #include "estimator/deletion.h"
 #include "estimator/normal_matrix.h"
 #include "estimator/polish.h"
+#include "estimator/subset_fit.h"
 #include "residuals/whitener.h"
 #include "testing/matchers.h"
 #include "testing/outliers.h"
@@ -240,6 +243,53 @@ TEST(Outliers, DoNotDependOnTheOrderOfTheRows) {
   std::sort(labels_of_shuffled.begin(), labels_of_shuffled.end());
   EXPECT_GE(labels.size(), 9u);
   EXPECT_EQ(labels, labels_of_shuffled);
+}
+
+// What was taken out too early comes back: no pose that is listed agrees with the others. Noise
+// with long tails besides gross outliers; this is a draw in which one does come back.
+TEST(Outliers, ContradictTheOthersToTheEnd) {
+  std::mt19937_64 rng(7);
+  std::vector<Observation> rows;
+  for (int k = 0; k < 40; ++k) {
+    rows = HexapodObservations(rng, AnyMounts(rng), 14);
+    for (Observation& o : rows) {
+      std::vector<Observation> one = {o};
+      const double factor = std::abs(std::student_t_distribution<double>(1.5)(rng));
+      testing::AddNoise(rng, factor * factor * NoiseCovariance(), &one);
+      o = one[0];
+    }
+    testing::SpoilGrossly(rng, DrawIndices(rng, 5, 14), kNoise, &rows);
+  }
+  const std::vector<Outlier> outliers = FindOutliers(UnknownNoise(rows), {}, {}).outliers;
+  EXPECT_FALSE(outliers.empty());
+  for (const Outlier& outlier : outliers) EXPECT_LT(outlier.p_value, 0.01) << outlier.label;
+}
+
+TEST(SubsetFit, LevelsOfTheNearestAreThoseOfAll) {
+  auto rng = SeededByTest();
+  double position = 0.0, orientation = 0.0;
+  constexpr int kDraws = 30;
+  for (int k = 0; k < kDraws; ++k) {
+    const BaseAndTool truth = AnyMounts(rng);
+    const Observations clean = UnknownNoise(NoisyRows(rng, truth, 100));
+    std::vector<std::pair<double, std::size_t>> distances;
+    for (std::size_t i = 0; i < 100; ++i)
+      distances.emplace_back(
+          (WhitenerOf(NoiseCovariance()) *
+           PoseError(truth, clean.items[i].base_from_platform, clean.items[i].world_from_tool))
+              .norm(),
+          i);
+    std::sort(distances.begin(), distances.end());
+    std::vector<bool> kept(100, false);
+    for (std::size_t i = 0; i < 55; ++i) kept[distances[i].second] = true;
+    SubsetFit fit(clean, {});
+    fit.StartFrom(truth, kNoise);
+    fit.Fit(kept, true);
+    position += fit.levels().position / kNoise.position / kDraws;
+    orientation += fit.levels().orientation / kNoise.orientation / kDraws;
+  }
+  EXPECT_NEAR(position, 1.0, 0.05);
+  EXPECT_NEAR(orientation, 1.0, 0.05);
 }
 
 TEST(Outliers, OfDataWithRobotNoise) {

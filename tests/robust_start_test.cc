@@ -80,6 +80,24 @@ TEST(RobustStart, LevelsOfCleanPosesAreUnbiased) {
   EXPECT_NEAR(orientation, 1.0, 0.1);
 }
 
+// Position and orientation errors have no common unit.
+TEST(RobustStart, UnitsDoNotMatter) {
+  auto rng = SeededByTest();
+  for (int k = 0; k < 10; ++k) {
+    std::vector<Observation> rows = HexapodObservations(rng, AnyMounts(rng), 30);
+    testing::AddNoise(rng, Isotropic(kNoise), &rows);
+    testing::SpoilGrossly(rng, testing::DrawIndices(rng, 9, 30), kNoise, &rows);
+    const RobustStart in_metres = FindRobustStart(testing::UnknownNoise(rows), {});
+    for (Observation& o : rows) {
+      o.base_from_platform.translation *= 1e3;
+      o.world_from_tool.translation *= 1e3;
+    }
+    const RobustStart in_millimetres = FindRobustStart(testing::UnknownNoise(rows), {});
+    EXPECT_EQ(in_metres.nearest, in_millimetres.nearest);
+    EXPECT_NEAR(in_millimetres.levels.position / in_metres.levels.position, 1e3, 1e-6);
+  }
+}
+
 TEST(RobustStart, StatedNoiseWeighsTheErrors) {
   auto rng = SeededByTest();
   const Matrix6d covariance = testing::TrackerLikeCovariance();
