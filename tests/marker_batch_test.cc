@@ -10,6 +10,7 @@
 
 #include "estimator/calibrate.h"
 #include "estimator/marker_reference.h"
+#include "estimator/marker_solver.h"
 #include "testing/bits.h"
 #include "testing/marker_scenes.h"
 #include "testing/matchers.h"
@@ -177,6 +178,71 @@ TEST(MarkerBatch, KeepsItsDigitsWhereOneNoiseDwarfsTheOther) {
     EXPECT_LT(at.squared_norm, 1.5 * freedom);
     const Eigen::VectorXd step = at.normal.ldlt().solve(at.gradient);
     EXPECT_LT(step.dot(at.gradient), 1e-12);  // squared sigmas
+  }
+}
+
+// Degrees of freedom that the robot's draws take, and the covariance of a measured tool pose,
+// against the plain problem written out: all rows, all parameters, no elimination.
+struct Plain {
+  Eigen::MatrixXd rows;  // whitened readings, then draws; by globals, trackers, draws
+  int globals = 0, draws = 0;
+};
+
+Plain WriteOut(const MarkerData& data, const Eigen::Vector3d& sigma, const BaseAndTool& mounts) {
+  const int poses = static_cast<int>(data.poses.size());
+  Plain plain;
+  plain.globals = 12;
+  plain.draws = 6 * poses;
+  const int size = 12 + 12 * poses, readings = 3 * static_cast<int>(data.readings.size());
+  const auto residuals = [&](const Eigen::VectorXd& y) {
+    Eigen::VectorXd r(readings + 6 * poses);
+    const Pose3d base = Plus(mounts.world_from_base, Vector6d(y.head<6>()));
+    const Pose3d tool = Plus(mounts.platform_from_tool, Vector6d(y.segment<6>(6)));
+    for (int i = 0; i < poses; ++i) {
+      const MarkerPose& pose = data.poses[i];
+      const Vector6d draw = y.segment<6>(12 + 6 * poses + 6 * i);
+      const Pose3d tracker = Plus(pose.tracker_from_world, Vector6d(y.segment<6>(12 + 6 * i)));
+      const Pose3d platform = Plus(pose.base_from_platform, Vector6d(pose.robot_root * draw));
+      for (int k = pose.first_base; k < pose.end; ++k) {
+        const bool is_tool = k >= pose.first_tool;
+        const MarkerMean& reading = data.readings[k];
+        const Eigen::Vector3d p = data.bodies[is_tool ? 1 : 0].p_in_body.col(reading.marker);
+        const Eigen::Vector3d seen = is_tool ? tracker * base * platform * tool * p : tracker * p;
+        r.segment<3>(3 * k) =
+            std::sqrt(reading.frames) * (reading.p_in_tracker - seen).cwiseQuotient(sigma);
+      }
+      r.segment<6>(readings + 6 * i) = draw;
+    }
+    return r;
+  };
+  plain.rows = testing::NumericJacobian(residuals, size);
+  return plain;
+}
+
+TEST(MarkerBatch, CountsTheFreedomOfTheRobotsDraws) {
+  auto rng = SeededByTest();
+  for (const double robot_noise : {1e-5, 1e-4, 1e-3}) {
+    MarkerScene scene;
+    scene.robot_noise = robot_noise;
+    const Drawn d = DrawScene(rng, scene, 0.0);
+    const MarkerData& data = d.markers.data;
+    const MarkerBatch batch(data, scene.sigma);
+    const Blocks blocks = StartAt(data, d.truth.mounts);
+    const NormalEquations at = Evaluate(batch, blocks);
+    const MarkerFit fit = FitOf(batch, blocks, at);
+
+    const Plain plain = WriteOut(data, scene.sigma, d.truth.mounts);
+    const Eigen::MatrixXd all = (plain.rows.transpose() * plain.rows).inverse();
+    const Eigen::MatrixXd expected = all.topLeftCorner(12, 12);
+    const Eigen::VectorXd scale = expected.diagonal().cwiseSqrt().cwiseInverse();
+    EXPECT_TRUE(MatrixNear(scale.asDiagonal() * at.normal.inverse() * scale.asDiagonal(),
+                           scale.asDiagonal() * expected * scale.asDiagonal(),
+                           1e-5));
+    // Each draw has a prior of one row; what is left of its variance is what it does not take.
+    const double free = all.bottomRightCorner(plain.draws, plain.draws).trace();
+    EXPECT_NEAR(fit.draw_freedom, plain.draws - free, 1e-5 * plain.draws);
+    EXPECT_GT(fit.draw_freedom, 0.01);
+    EXPECT_LT(fit.draw_freedom, plain.draws);
   }
 }
 
