@@ -12,6 +12,8 @@
 #include "estimator/closed_form.h"
 #include "estimator/judge.h"
 #include "estimator/noise.h"
+#include "estimator/normal_matrix.h"
+#include "estimator/pose_fit.h"
 #include "estimator/rms.h"
 #include "estimator/start.h"
 #include "residuals/whitener.h"
@@ -58,8 +60,11 @@ class Calibration {
     else
       FitNonlinear();
     if (estimate_.converged) RefuseBadFit();
-    if (!estimate_.converged && weighting_.levels_estimated) TakeResidualsAsNoise();
-    Judge(observations_, weighting_, &estimate_);
+    if (!estimate_.converged && weighting_.levels_estimated) {
+      TakeResidualsAsNoise();
+      sums_.reset();
+    }
+    Judge(observations_, weighting_, sums_, &estimate_);
     return std::move(estimate_);
   }
 
@@ -98,14 +103,68 @@ class Calibration {
           EstimateNoise(observations_, estimate_.mounts, Spread(observations_.items));
   }
 
+  bool IsStreamed() const { return evaluation_ == Evaluation::kStreamed; }
+
+  // Levels that are not known are found in the same passes, but where the robot's own noise makes
+  // the weights depend on the tool. Where sums of squares lose the weakest direction, rows decide.
+  void FitNonlinear() {
+    const BaseAndTool start = estimate_.mounts;
+    const Weighting weighting = weighting_;
+    if (IsStreamed()) {
+      batch_.Reserve(observations_.items.size());
+      for (const Observation& o : observations_.items)
+        batch_.Add(o.base_from_platform, o.world_from_tool);
+      if (observations_.has_robot_noise)
+        FitInRounds();
+      else
+        FitStreamed(weighting_.levels_estimated ? std::nullopt : std::optional(Weights()));
+      if (KeepsItsWeakest(sums_->equations.normal)) return;
+      sums_.reset();
+      estimate_.iterations.clear();
+      estimate_.mounts = start;
+      weighting_ = weighting;
+      evaluation_ = Evaluation::kPerPose;
+    }
+    FitInRounds();
+  }
+
+  void FitStreamed(const std::optional<PoseWeights>& weights) {
+    PoseFitOptions options;
+    options.nonlinear = options_.nonlinear;
+    options.threads = options_.threads;
+    const PoseFit fit = FitPoses(batch_, weights ? &*weights : nullptr, estimate_.mounts, options);
+    Take(fit.solution);
+    sums_ = {fit.equations, fit.variances};
+    if (fit.variances)
+      weighting_.levels = {std::sqrt(fit.variances->values[0]),
+                           std::sqrt(fit.variances->values[1])};
+  }
+
+  PoseWeights Weights() const {
+    const Pose3d& tool = estimate_.mounts.platform_from_tool;
+    const auto covariance = [&](const Observation& o) {
+      return ErrorCovariance(o, observations_, tool, weighting_.levels);
+    };
+    if (!observations_.tool_noise_is_known && !observations_.has_robot_noise)
+      return PoseWeights::Isotropic(weighting_.levels.position, weighting_.levels.orientation);
+    if (HasCommonCovariance(observations_))
+      return PoseWeights::Common(covariance(observations_.items[0]));
+    PoseWeights weights = PoseWeights::PerPose(observations_.items.size());
+    for (const Observation& o : observations_.items) weights.Add(covariance(o));
+    return weights;
+  }
+
   // Weights follow the noise and (through the robot's noise) the tool; both follow the fit: in
   // turn, until nothing moves but rounding.
-  void FitNonlinear() {
+  void FitInRounds() {
     double last = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kMaxRounds; ++round) {
       const BaseAndTool mounts = estimate_.mounts;
       const NoiseLevels levels = weighting_.levels;
-      Take(SolveNonlinear(observations_.items, Whiteners(), mounts, options_.nonlinear));
+      if (IsStreamed())
+        FitStreamed(Weights());
+      else
+        Take(SolveNonlinear(observations_.items, Whiteners(), mounts, options_.nonlinear));
       EstimateLevels();
       if (!estimate_.converged || !WeightsMove()) return;
       const double change = Change(mounts, levels);
@@ -216,7 +275,10 @@ class Calibration {
   const Observations& observations_;
   const std::optional<BaseAndTool>& initial_;
   const CalibrateOptions& options_;
+  Evaluation evaluation_ = options_.evaluation;
   Weighting weighting_;
+  PoseBatch batch_;
+  std::optional<FitSums> sums_;
   Estimate estimate_;
 };
 

@@ -14,8 +14,15 @@ namespace hexcal {
 enum class Solver { kNonlinear, kLinearized };
 enum class Start { kClosedForm, kShah, kParkMartin, kInitial, kIdentity };
 
+// How the nonlinear problem is evaluated: the same solution either way.
+enum class Evaluation {
+  kStreamed,  // one pass over all poses, from which Ceres gets 13 rows
+  kPerPose,   // one automatically differentiated residual block a pose: the reference
+};
+
 struct CalibrateOptions {
   Solver solver = Solver::kNonlinear;
+  Evaluation evaluation = Evaluation::kStreamed;
   std::optional<Start>
       start;  // default: closed form; linearized: initial where given, else identity
   std::optional<NoiseLevels> noise;  // in place of a noise that is not given; else it is estimated
@@ -23,6 +30,7 @@ struct CalibrateOptions {
   NonlinearOptions nonlinear;
   OutlierHandling outliers = OutlierHandling::kNotSought;
   OutlierOptions snooping;  // of the search for them
+  int threads = 1;  // of the passes over many poses; the result does not depend on it
 };
 
 // Base and tool with covariance. Weights are the inverse covariances of the poses; where the tool's

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "estimator/covariance.h"
+#include "estimator/intervals.h"
 #include "estimator/observations.h"
 #include "estimator/outliers.h"
 #include "residuals/pose_error.h"
@@ -76,6 +77,7 @@ struct Estimate {
 
   Matrix12d covariance_unscaled = Matrix12d::Zero();
   Matrix12d covariance = Matrix12d::Zero();  // the one to use
+  Intervals intervals;                       // 95 %, of covariance
   Observability observability;               // which of the 12 are determined
   std::vector<std::string> warnings;
 

@@ -8,6 +8,7 @@
 #include "estimator/linearized.h"
 #include "estimator/normal_matrix.h"
 #include "estimator/rms.h"
+#include "residuals/streamed_cost.h"
 #include "residuals/whitener.h"
 
 namespace hexcal {
@@ -15,12 +16,20 @@ namespace {
 
 class Judgement {
  public:
-  Judgement(const Observations& observations, const Weighting& weighting, Estimate* estimate)
-      : observations_(observations), weighting_(weighting), estimate_(*estimate) {}
+  Judgement(const Observations& observations,
+            const Weighting& weighting,
+            const std::optional<FitSums>& sums,
+            Estimate* estimate)
+      : observations_(observations),
+        weighting_(weighting),
+        sums_(sums),
+        estimate_(*estimate),
+        is_common_(HasCommonCovariance(observations)) {}
 
   void Run() {
     SetResiduals();
     SetCovariance();
+    SetIntervals();
     AddWarnings();
   }
 
@@ -30,19 +39,35 @@ class Judgement {
         o, observations_, estimate_.mounts.platform_from_tool, weighting_.levels);
   }
 
+  // The whitener of every observation, made once where it is the same.
+  template <typename Work>
+  void ForEachWhitened(const Work& work) const {
+    Matrix6d covariance, whitener;
+    bool is_first = true;
+    for (const Observation& o : observations_.items) {
+      if (is_first || !is_common_) {
+        covariance = Covariance(o);
+        whitener = WhitenerOf(covariance);
+      }
+      is_first = false;
+      work(o, covariance, whitener);
+    }
+  }
+
   void SetResiduals() {
     estimate_.tracker_from_world = observations_.tracker_from_world;
     const double n = static_cast<double>(observations_.items.size());
     RmsError rms;
     Vector6d mean_variance = Vector6d::Zero();
-    for (const Observation& o : observations_.items) {
-      const Vector6d e = PoseError(estimate_.mounts, o.base_from_platform, o.world_from_tool);
-      const Matrix6d c = Covariance(o);
-      estimate_.poses.push_back({o.label, 1.0, e});
-      estimate_.chi_square += (WhitenerOf(c) * e).squaredNorm();
-      rms.Add(e);
-      mean_variance += c.diagonal() / n;
-    }
+    estimate_.poses.reserve(observations_.items.size());
+    ForEachWhitened(
+        [&](const Observation& o, const Matrix6d& covariance, const Matrix6d& whitener) {
+          const Vector6d e = PoseError(estimate_.mounts, o.base_from_platform, o.world_from_tool);
+          estimate_.poses.push_back({o.label, 1.0, e});
+          estimate_.chi_square += (whitener * e).squaredNorm();
+          rms.Add(e);
+          mean_variance += covariance.diagonal() / n;
+        });
     estimate_.rmspe = rms.Position();
     estimate_.rmsoe = rms.Orientation();
     if (weighting_.paper_error) {  // Eq. (42) over the paper's own differences
@@ -58,10 +83,7 @@ class Judgement {
   }
 
   void SetCovariance() {
-    JacobianFactor factor;
-    for (const Observation& o : observations_.items)
-      factor.Add(WhitenerOf(Covariance(o)) * Linearise(o, estimate_.mounts).jacobian);
-    ParameterCovariance result = ComputeCovariance(factor.R(), Limits());
+    ParameterCovariance result = ComputeCovariance(RFactor(), Limits());
     estimate_.observability = result.observability;
     if (weighting_.paper_error) result.covariance = PaperCovariance();
 
@@ -74,6 +96,28 @@ class Judgement {
     const Matrix12d common = CommonTrackerCovariance();
     estimate_.covariance_unscaled = result.covariance + common;
     estimate_.covariance = scale * result.covariance + common;
+  }
+
+  // From the fit's normal matrix, or from the rows themselves.
+  Matrix12d RFactor() const {
+    if (sums_ && KeepsItsWeakest(sums_->equations.normal))
+      return RowsOf(sums_->equations).jacobian.topRows<12>();
+    JacobianFactor factor;
+    ForEachWhitened([&](const Observation& o, const Matrix6d&, const Matrix6d& whitener) {
+      factor.Add(whitener * Linearise(o, estimate_.mounts).jacobian);
+    });
+    return factor.R();
+  }
+
+  void SetIntervals() {
+    const Matrix12d& covariance = estimate_.covariance;
+    if (!weighting_.levels_estimated)
+      estimate_.intervals = IntervalsOfKnownNoise(covariance);
+    else if (sums_ && sums_->variances && estimate_.observability.null_directions == 0)
+      estimate_.intervals =
+          IntervalsOfEstimatedNoise(covariance, sums_->equations.components, *sums_->variances);
+    else
+      estimate_.intervals = IntervalsOfScaledNoise(covariance, estimate_.degrees_of_freedom);
   }
 
   // The paper's iteration stands still where sum J' S e = 0, with S what its pose difference makes
@@ -125,13 +169,18 @@ class Judgement {
 
   const Observations& observations_;
   const Weighting& weighting_;
+  const std::optional<FitSums>& sums_;
   Estimate& estimate_;
+  bool is_common_;
 };
 
 }  // namespace
 
-void Judge(const Observations& observations, const Weighting& weighting, Estimate* estimate) {
-  Judgement(observations, weighting, estimate).Run();
+void Judge(const Observations& observations,
+           const Weighting& weighting,
+           const std::optional<FitSums>& sums,
+           Estimate* estimate) {
+  Judgement(observations, weighting, sums, estimate).Run();
 }
 
 }  // namespace hexcal

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "estimator/estimate.h"
 #include "estimator/observations.h"
+#include "estimator/variances.h"
 
 namespace hexcal {
 
@@ -14,8 +17,18 @@ struct Weighting {
       false;  // equal weights over the paper's pose differences (Eq. 22), else inverse covariances
 };
 
+// What the fit has summed up at its solution; nothing where that was another residual's or another
+// solver's.
+struct FitSums {
+  NormalEquations equations;
+  std::optional<Variances> variances;
+};
+
 // Fills in all that follows from the mounts: residuals, chi-square, covariance, what is not
 // determined, warnings.
-void Judge(const Observations& observations, const Weighting& weighting, Estimate* estimate);
+void Judge(const Observations& observations,
+           const Weighting& weighting,
+           const std::optional<FitSums>& sums,
+           Estimate* estimate);
 
 }  // namespace hexcal

@@ -11,6 +11,13 @@ namespace {
 constexpr double kRankThreshold = 1e-12;
 // Squared pivots of columns of unit length: above it the triangular factor tells the rank.
 constexpr double kSafePivot = 1e-8;
+// Of eigenvalues: squares of singular values.
+constexpr double kKeptShare = 1e-8;
+
+Eigen::MatrixXd WithUnitDiagonal(const Eigen::MatrixXd& normal, const Eigen::VectorXd& norms) {
+  const Eigen::VectorXd scale = norms.cwiseInverse();
+  return scale.asDiagonal() * normal * scale.asDiagonal();
+}
 
 }  // namespace
 
@@ -26,12 +33,19 @@ Eigen::MatrixXd InverseOfNormal(const Eigen::MatrixXd& normal) {
   const Eigen::VectorXd norms = normal.diagonal().cwiseSqrt();
   if (!(norms.minCoeff() > 0)) return InverseOfNormal(normal, norms);
   const Eigen::VectorXd scale = norms.cwiseInverse();
-  const Eigen::LLT<Eigen::MatrixXd> cholesky(scale.asDiagonal() * normal * scale.asDiagonal());
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(WithUnitDiagonal(normal, norms));
   if (cholesky.info() != Eigen::Success ||
       !(cholesky.matrixLLT().diagonal().array().square().minCoeff() > kSafePivot))
     return InverseOfNormal(normal, norms);
   const Eigen::Index p = norms.size();
   return scale.asDiagonal() * cholesky.solve(Eigen::MatrixXd::Identity(p, p)) * scale.asDiagonal();
+}
+
+bool KeepsItsWeakest(const Eigen::MatrixXd& normal) {
+  const Eigen::VectorXd norms = normal.diagonal().cwiseSqrt();
+  if (!(norms.minCoeff() > 0)) return false;
+  const Eigen::VectorXd values = DecomposeSymmetric(WithUnitDiagonal(normal, norms)).values;
+  return values[0] > kKeptShare * values[norms.size() - 1];
 }
 
 Eigen::VectorXd GaussNewtonStep(const NormalEquations& equations) {

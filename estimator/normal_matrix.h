@@ -16,6 +16,10 @@ Eigen::MatrixXd InverseOfNormal(const Eigen::MatrixXd& normal, const Eigen::Vect
 // The same for a symmetric one, whose diagonal holds the squared lengths.
 Eigen::MatrixXd InverseOfNormal(const Eigen::MatrixXd& normal);
 
+// Whether squaring the rows has kept what they say of the weakest direction: it has seven digits
+// left, the singular values of the rows differing by less than 1e4.
+bool KeepsItsWeakest(const Eigen::MatrixXd& normal);
+
 // The step to the minimum of the linearised residuals, the shortest where directions are lost.
 Eigen::VectorXd GaussNewtonStep(const NormalEquations& equations);
 

@@ -64,6 +64,15 @@ Matrix6d ErrorCovariance(const Observation& observation,
   return covariance;
 }
 
+bool HasCommonCovariance(const Observations& observations) {
+  const Observation& first = observations.items[0];
+  return std::all_of(
+      observations.items.begin(), observations.items.end(), [&](const Observation& o) {
+        return (!observations.tool_noise_is_known || o.tool_covariance == first.tool_covariance) &&
+               (!observations.has_robot_noise || o.robot_covariance == first.robot_covariance);
+      });
+}
+
 LinearisedError Linearise(const Observation& observation, const BaseAndTool& mounts) {
   const Vector6d error =
       PoseError(mounts, observation.base_from_platform, observation.world_from_tool);

@@ -51,6 +51,9 @@ Matrix6d ErrorCovariance(const Observation& observation,
                          const Pose3d& platform_from_tool,
                          const NoiseLevels& levels);
 
+// Whether ErrorCovariance is the same for all.
+bool HasCommonCovariance(const Observations& observations);
+
 // The pose error of an observation, not whitened, and its exact derivative by the 12 parameters.
 struct LinearisedError {
   Vector6d error;

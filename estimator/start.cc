@@ -79,9 +79,10 @@ Misfit MisfitOf(const Rows& rows, const BaseAndTool& mounts) {
 BaseAndTool FindStart(const Rows& rows) {
   Best best{rows, {}};
   for (const ClosedForm method :
-       {ClosedForm::kShah, ClosedForm::kParkMartin, ClosedForm::kPositions})
+       {ClosedForm::kShah, ClosedForm::kParkMartin, ClosedForm::kPositions}) {
     best.Offer(SolveClosedForm(method, rows));
-  if (best.misfit < kGoodMisfit) return best.mounts;
+    if (best.misfit < kGoodMisfit) return best.mounts;
+  }
 
   const Rows few = Thinned(rows);
   const std::vector<Matrix6d> whiteners(few.size(), SpreadWhitener(few));

@@ -16,9 +16,9 @@ struct Misfit {
 };
 Misfit MisfitOf(const std::vector<Observation>& observations, const BaseAndTool& mounts);
 
-// Base and tool from nothing, near enough for the iterative solvers: the best closed form. Where
-// none fits (rotations about one axis, by half turns or none at all leave more than one base
-// rotation, among which only the positions decide) it is searched for from all around.
+// Base and tool from nothing, near enough for the iterative solvers: the first closed form that
+// fits. Where none fits (rotations about one axis, by half turns or none at all leave more than one
+// base rotation, among which only the positions decide) it is searched for from all around.
 BaseAndTool FindStart(const std::vector<Observation>& observations);
 
 }  // namespace hexcal

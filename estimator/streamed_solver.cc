@@ -27,13 +27,6 @@ std::vector<const double*> Pointers(const ParameterBlocks& blocks) {
   return pointers;
 }
 
-IterationRecord RecordOf(double cost, const NormalEquations& equations) {
-  const double n = static_cast<double>(equations.poses);
-  return {cost,
-          std::sqrt(equations.position_squares / n),
-          std::sqrt(equations.orientation_squares / n)};
-}
-
 // Writes down every accepted or refused step.
 class Recorder : public ceres::IterationCallback {
  public:
@@ -83,20 +76,6 @@ double LengthInSigmas(const NormalEquations& equations, const Eigen::VectorXd& s
   return std::sqrt(std::max(0.0, -step.dot(equations.gradient)));
 }
 
-ParameterBlocks Polish(const StreamedResidual& residual, ParameterBlocks blocks) {
-  double last = std::numeric_limits<double>::infinity();
-  for (int k = 0; k < kMaxPolishSteps; ++k) {
-    const NormalEquations equations = Evaluate(residual, blocks);
-    const Eigen::VectorXd step = GaussNewtonStep(equations);
-    const double size = step.cwiseAbs().maxCoeff();
-    if (!(size < 0.5 * last)) break;  // rounding is all that is left
-    blocks = Moved(blocks, step);
-    if (LengthInSigmas(equations, step) < kLastStep) break;
-    last = size;
-  }
-  return blocks;
-}
-
 }  // namespace
 
 ParameterBlocks BlocksOf(const BaseAndTool& mounts) {
@@ -129,14 +108,40 @@ NormalEquations Evaluate(const StreamedResidual& residual, const ParameterBlocks
   return residual.Evaluate(Pointers(blocks).data());
 }
 
+IterationRecord RecordOf(double cost, const NormalEquations& equations) {
+  const double n = static_cast<double>(equations.poses);
+  return {cost,
+          std::sqrt(equations.position_squares / n),
+          std::sqrt(equations.orientation_squares / n)};
+}
+
+ParameterBlocks Polished(const StreamedResidual& residual,
+                         ParameterBlocks blocks,
+                         NormalEquations* equations) {
+  double last = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < kMaxPolishSteps; ++k) {
+    const Eigen::VectorXd step = GaussNewtonStep(*equations);
+    const double size = step.cwiseAbs().maxCoeff();
+    if (!(size < 0.5 * last)) break;  // rounding is all that is left
+    blocks = Moved(blocks, step);
+    if (LengthInSigmas(*equations, step) < kLastStep) break;
+    *equations = Evaluate(residual, blocks);
+    last = size;
+  }
+  return blocks;
+}
+
 Solution SolveStreamed(const StreamedResidual& residual,
                        const NonlinearOptions& options,
-                       ParameterBlocks* blocks) {
+                       ParameterBlocks* blocks,
+                       NormalEquations* equations) {
+  NormalEquations own;
+  if (equations == nullptr) equations = &own;
   Solution solution;
   solution.mounts = MountsOf(*blocks);
   StreamedCost cost(residual);
-  const NormalEquations& at_start = cost.At(Pointers(*blocks).data());
-  if (!std::isfinite(at_start.squared_norm) || !at_start.normal.allFinite()) {
+  *equations = cost.At(Pointers(*blocks).data());
+  if (!std::isfinite(equations->squared_norm) || !equations->normal.allFinite()) {
     solution.message = "the weighted errors at the start are beyond the range of numbers";
     solution.iterations.emplace_back();
     return solution;
@@ -161,13 +166,13 @@ Solution SolveStreamed(const StreamedResidual& residual,
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options, &problem, &summary);
   solution.converged = summary.termination_type == ceres::CONVERGENCE;
+  *equations = cost.At(Pointers(*blocks).data());
   if (!solution.converged) {
-    const NormalEquations& equations = cost.At(Pointers(*blocks).data());
-    const double length = LengthInSigmas(equations, GaussNewtonStep(equations));
+    const double length = LengthInSigmas(*equations, GaussNewtonStep(*equations));
     solution.converged = 0.5 * length * length < kNothing * summary.final_cost;
   }
   if (solution.converged)
-    *blocks = Polish(residual, *blocks);
+    *blocks = Polished(residual, *blocks, equations);
   else
     solution.message = summary.message;
   solution.mounts = MountsOf(*blocks);

@@ -6,25 +6,34 @@
 namespace hexcal {
 namespace {
 
-void SetLanes(Lanes* lanes, int first, double value) {
-  for (int l = first; l < kLanes; ++l) (*lanes)[l] = value;
+// The first pose of a block fills all its lanes.
+void SetLanes(Lanes* lanes, int lane, double value) {
+  if (lane == 0)
+    *lanes = Lanes{} + value;
+  else
+    (*lanes)[lane] = value;
 }
 
-void SetPose(const Pose3d& pose, int first, Vec<Lanes>* t, Quat<Lanes>* q) {
-  SetLanes(&t->x, first, pose.translation.x());
-  SetLanes(&t->y, first, pose.translation.y());
-  SetLanes(&t->z, first, pose.translation.z());
-  SetLanes(&q->x, first, pose.rotation.x());
-  SetLanes(&q->y, first, pose.rotation.y());
-  SetLanes(&q->z, first, pose.rotation.z());
-  SetLanes(&q->w, first, pose.rotation.w());
+void SetPose(const Pose3d& pose, int lane, Vec<Lanes>* t, Quat<Lanes>* q) {
+  SetLanes(&t->x, lane, pose.translation.x());
+  SetLanes(&t->y, lane, pose.translation.y());
+  SetLanes(&t->z, lane, pose.translation.z());
+  SetLanes(&q->x, lane, pose.rotation.x());
+  SetLanes(&q->y, lane, pose.rotation.y());
+  SetLanes(&q->z, lane, pose.rotation.z());
+  SetLanes(&q->w, lane, pose.rotation.w());
 }
 
-void SetInformation(const Matrix6d& covariance, int first, PoseWeights::Block* block) {
+Pose3d PoseAt(const Vec<Lanes>& t, const Quat<Lanes>& q, int lane) {
+  return {Eigen::Vector3d(t.x[lane], t.y[lane], t.z[lane]),
+          Eigen::Quaterniond(q.w[lane], q.x[lane], q.y[lane], q.z[lane])};
+}
+
+void SetInformation(const Matrix6d& covariance, int lane, PoseWeights::Block* block) {
   const Matrix6d information = covariance.llt().solve(Matrix6d::Identity());
   int k = 0;
   for (int i = 0; i < 6; ++i)
-    for (int j = i; j < 6; ++j) SetLanes(&block->w[k++], first, information(i, j));
+    for (int j = i; j < 6; ++j) SetLanes(&block->w[k++], lane, information(i, j));
 }
 
 }  // namespace
@@ -36,6 +45,13 @@ void PoseBatch::Add(const Pose3d& base_from_platform, const Pose3d& world_from_t
   SetPose(base_from_platform, lane, &block.base_from_platform_t, &block.base_from_platform_q);
   SetPose(world_from_tool, lane, &block.world_from_tool_t, &block.world_from_tool_q);
   ++size_;
+}
+
+void PoseBatch::Get(std::size_t pose, Pose3d* base_from_platform, Pose3d* world_from_tool) const {
+  const Block& block = blocks_[pose / kLanes];
+  const int lane = static_cast<int>(pose % kLanes);
+  *base_from_platform = PoseAt(block.base_from_platform_t, block.base_from_platform_q, lane);
+  *world_from_tool = PoseAt(block.world_from_tool_t, block.world_from_tool_q, lane);
 }
 
 PoseWeights PoseWeights::Isotropic(double position_sigma, double orientation_sigma) {

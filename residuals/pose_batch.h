@@ -23,8 +23,10 @@ class PoseBatch {
   void Reserve(std::size_t poses) { blocks_.reserve((poses + kLanes - 1) / kLanes); }
   void Add(const Pose3d& base_from_platform, const Pose3d& world_from_tool);
 
+  void Get(std::size_t pose, Pose3d* base_from_platform, Pose3d* world_from_tool) const;
+
   std::size_t size() const { return size_; }
-  // Lanes of the last block beyond size() repeat its last pose.
+  // Lanes of the last block beyond size() hold one of its poses.
   const std::vector<Block>& blocks() const { return blocks_; }
 
  private:

@@ -86,12 +86,16 @@ NormalEquations Weighted(const IsotropicSums& sums,
                          double position_weight,
                          double orientation_weight,
                          std::size_t poses) {
+  const auto component = [](const IsotropicSums::Part& part) {
+    return VarianceComponent{part.normal, part.gradient, part.squares, 3.0 * part.weights};
+  };
   return {position_weight * sums.position.normal + orientation_weight * sums.orientation.normal,
           position_weight * sums.position.gradient + orientation_weight * sums.orientation.gradient,
           sums.totals.rho,
           sums.totals.position_squares,
           sums.totals.orientation_squares,
-          static_cast<long>(poses)};
+          static_cast<long>(poses),
+          {component(sums.position), component(sums.orientation)}};
 }
 
 }  // namespace hexcal

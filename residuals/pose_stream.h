@@ -39,7 +39,8 @@ class PoseStream final : public StreamedResidual {
   int threads_;
 };
 
-// The normal equations that the two parts make at these weights, 1/m^2 and 1/rad^2.
+// The normal equations that the two parts make at these weights, 1/m^2 and 1/rad^2; their
+// components are positions and orientations.
 NormalEquations Weighted(const IsotropicSums& sums,
                          double position_weight,
                          double orientation_weight,

@@ -6,6 +6,15 @@
 
 namespace hexcal {
 
+// Rows whose errors share one unknown variance, as if it were one: what the residuals' sums would
+// be at another is told without another pass.
+struct VarianceComponent {
+  Eigen::MatrixXd normal;     // J' J, p x p
+  Eigen::VectorXd gradient;   // J' e
+  double squared_norm = 0.0;  // e' e
+  double rows = 0.0;
+};
+
 // All that least squares needs to know of a set of residuals at one point. r: the whitened
 // residuals, dimensionless, J their derivative by the small motions of the parameters, in the order
 // of the parameter blocks. Under a robust loss rho every row carries the root of its weight rho'.
@@ -18,6 +27,8 @@ struct NormalEquations {
   double position_squares = 0.0;
   double orientation_squares = 0.0;
   long poses = 0;
+  // Empty, or what all rows consist of: normal is the sum of theirs by inverse variance.
+  std::vector<VarianceComponent> components = {};
 };
 
 // Residuals of which no row is ever stored: one pass gives their normal equations. What Ceres sees

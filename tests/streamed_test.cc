@@ -135,9 +135,10 @@ TEST(StreamedCost, CostAloneIsTheSame) {
 TEST(SolveStreamed, EndsWhereTheGradientIsZeroToRounding) {
   const Scene scene = MakeScene(30);
   ParameterBlocks blocks = scene.start;
-  const Solution solution = SolveStreamed(scene.residual, {}, &blocks);
+  NormalEquations equations;
+  const Solution solution = SolveStreamed(scene.residual, {}, &blocks, &equations);
   ASSERT_TRUE(solution.converged) << solution.message;
-  const NormalEquations equations = Evaluate(scene.residual, blocks);
+  equations = Evaluate(scene.residual, blocks);
   const Eigen::VectorXd step = equations.normal.ldlt().solve(equations.gradient);
   EXPECT_LT(std::sqrt(step.dot(equations.normal * step)), 1e-9);
   EXPECT_TRUE(
@@ -149,8 +150,9 @@ TEST(SolveStreamed, EndsWhereTheGradientIsZeroToRounding) {
 TEST(SolveStreamed, SaysThatTheStartIsBeyondNumbers) {
   const Scene scene = MakeScene(4);
   ParameterBlocks blocks = scene.start;
+  NormalEquations equations;
   blocks[0][0] = 1e200;
-  const Solution solution = SolveStreamed(scene.residual, {}, &blocks);
+  const Solution solution = SolveStreamed(scene.residual, {}, &blocks, &equations);
   EXPECT_FALSE(solution.converged);
   EXPECT_NE(solution.message.find("range of numbers"), std::string::npos) << solution.message;
 }
@@ -158,9 +160,10 @@ TEST(SolveStreamed, SaysThatTheStartIsBeyondNumbers) {
 TEST(SolveStreamed, TooFewIterationsAreNoConvergence) {
   const Scene scene = MakeScene(10);
   ParameterBlocks blocks = scene.start;
+  NormalEquations equations;
   NonlinearOptions options;
   options.max_iterations = 1;
-  const Solution solution = SolveStreamed(scene.residual, options, &blocks);
+  const Solution solution = SolveStreamed(scene.residual, options, &blocks, &equations);
   EXPECT_FALSE(solution.converged);
   EXPECT_FALSE(solution.message.empty());
 }
