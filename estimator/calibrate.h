@@ -30,7 +30,7 @@ struct CalibrateOptions {
   NonlinearOptions nonlinear;
   OutlierHandling outliers = OutlierHandling::kNotSought;
   OutlierOptions snooping;  // of the search for them
-  int threads = 1;  // of the passes over many poses; the result does not depend on it
+  int threads = 1;          // of the passes over many poses; the result does not depend on it
 };
 
 // Base and tool with covariance. Weights are the inverse covariances of the poses; where the tool's

@@ -42,7 +42,7 @@ class Judgement {
   // The whitener of every observation, made once where it is the same.
   template <typename Work>
   void ForEachWhitened(const Work& work) const {
-    Matrix6d covariance, whitener;
+    Matrix6d covariance = Matrix6d::Zero(), whitener = Matrix6d::Zero();
     bool is_first = true;
     for (const Observation& o : observations_.items) {
       if (is_first || !is_common_) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/pose_fit.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +19,9 @@ namespace {
 constexpr int kMaxRefinements = 30;
 // Of a standard deviation, or of a level: nothing moves any more.
 constexpr double kSettled = 1e-10;
+// Changes below this that no longer shrink are rounding.
+constexpr double kStalled = 1e-3;
+constexpr double kRoundings = 64.0;
 
 // An even sample as plain rows, for what need not see all poses.
 std::vector<Observation> Sample(const PoseBatch& batch) {
@@ -92,15 +97,25 @@ class Fit {
       const double length = std::sqrt(std::max(0.0, -step.dot(fit_.equations.gradient)));
       const double change = (variances_.array() / before.array() - 1.0).abs().maxCoeff();
       const double largest = std::max(length, change);
-      if (k > 0 && !(largest < 0.5 * last)) break;  // rounding is all that is left
+      // Rounding is all that is left.
+      const bool is_small = largest < kStalled || step.cwiseAbs().maxCoeff() < Rounded();
+      if (is_small && !(largest < 0.5 * last)) return;
       *blocks = Moved(*blocks, step);
-      if (largest < kSettled) break;
+      fit_.solution.mounts = MountsOf(*blocks);
+      if (largest < kSettled) return;
       last = largest;
       fit_.equations = Evaluate(stream, *blocks);
       SetVariances(variances_, &fit_.equations);
+      fit_.solution.iterations.push_back(
+          RecordOf(0.5 * fit_.equations.squared_norm, fit_.equations));
     }
-    fit_.solution.mounts = MountsOf(*blocks);
+    fit_.solution.converged = false;
+    fit_.solution.message =
+        fmt::format("noise and solution did not settle within {} steps", kMaxRefinements);
   }
+
+  // A step, m or rad, that the rounding of the data may make.
+  double Rounded() const { return kRoundings * std::sqrt(floor_.maxCoeff()); }
 
   const PoseBatch& batch_;
   const PoseWeights* given_;
