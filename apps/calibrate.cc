@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/calibrate.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <gflags/gflags.h>
 
-#include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <optional>
 
 #include "apps/calibrate_options.h"
-#include "apps/command.h"
 #include "apps/dataset_files.h"
 #include "apps/exit_status.h"
 #include "apps/flags.h"
@@ -19,19 +14,14 @@
 #include "apps/message.h"
 #include "apps/output_folder.h"
 #include "apps/progress.h"
-#include "apps/version.h"
+#include "apps/record_of.h"
 #include "config/input_error.h"
 #include "estimator/calibrate_markers.h"
 #include "model/machine.h"
 #include "report/result_table.h"
-#include "report/run_record.h"
 
 namespace hexcal {
 namespace {
-
-constexpr std::string_view kRunMark = R"("format": "hexcal/run/)";
-// Warnings of one dataset on stderr; result.json holds all.
-constexpr std::size_t kMaxWarnings = 10;
 
 const std::vector<OutputFile>& ResultFiles() {
   static const std::vector<OutputFile> files = {{"result.json", std::string(kResultMark)},
@@ -145,44 +135,12 @@ class CalibrateRun {
     if (estimate.tracker_from_world)
       machine.world_from_tracker = estimate.tracker_from_world->Inverse();
     job->folder.Write("model.yaml", WriteMachine(machine));
-    job->folder.Write("run.json", RunJson(RecordOf(job->dataset, outcome.seconds)));
+    job->folder.Write("run.json",
+                      RunJson(RecordOf("calibrate", job->dataset, outcome.seconds, threads_)));
     job->folder.Write("result.json", ResultJson(header, estimate));
     if (!estimate.IsTrustworthy()) ++untrusted_;
-    PrintWarnings(job->dataset, estimate);
+    PrintNewWarnings(job->dataset, estimate.warnings, "result.json");
     Print(*job, header, estimate);
-  }
-
-  RunRecord RecordOf(const Dataset& dataset, double seconds) const {
-    const std::time_t now = std::time(nullptr);
-    return {VersionText(),
-            Settings(),
-            InputFiles(dataset, ""),
-            fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now)),
-            seconds,
-            threads_};
-  }
-
-  // Every flag of the command with the value that it had in the end.
-  static std::vector<std::pair<std::string, std::string>> Settings() {
-    std::vector<std::pair<std::string, std::string>> settings;
-    for (const CommandFlag& flag : FindCommand("calibrate")->flags) {
-      std::string value;
-      gflags::GetCommandLineOption(std::string(flag.name).c_str(), &value);
-      settings.emplace_back(flag.name, value);
-    }
-    return settings;
-  }
-
-  // The dataset's own were printed when it was read.
-  static void PrintWarnings(const Dataset& dataset, const Estimate& estimate) {
-    std::size_t count = 0;
-    for (const std::string& warning : estimate.warnings) {
-      if (std::count(dataset.warnings.begin(), dataset.warnings.end(), warning) > 0) continue;
-      if (++count <= kMaxWarnings) PrintWarning(dataset.name + ": " + warning);
-    }
-    if (count > kMaxWarnings)
-      PrintWarning(
-          fmt::format("{}: {} more warnings, in result.json", dataset.name, count - kMaxWarnings));
   }
 
   static void Print(const Job& job, const ResultHeader& header, const Estimate& estimate) {

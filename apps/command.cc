@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "apps/calibrate.h"
+#include "apps/compare.h"
 #include "apps/predict.h"
 #include "apps/simulate.h"
 
@@ -39,6 +40,38 @@ const Command kCalibrate = {
      {"quiet"},
      {"force"}},
     &RunCalibrate,
+};
+
+const Command kCompare = {
+    "compare",
+    "the closed forms, the linearized iterations and the nonlinear solution side by side",
+    "DATASET",
+    1,
+    1,
+    "Solves the dataset by the paper's iteration, the twist iteration, Zhuang's AX = YB, Shah, Li, "
+    "Park-Martin and the nonlinear problem, and shows how far each is from the nonlinear solution, "
+    "what it leaves over, how well it predicts poses that it has not seen, and what it costs. Says "
+    "whether the nonlinear solution is proven to be the best anywhere, whether its covariance may "
+    "be used (JCGM 101:2008, clause 8), and from which starts the iterations arrive. Writes "
+    "compare.json and run.json, which has the times, to DIR/<name>/. Exit status 4: the nonlinear "
+    "solution cannot be trusted.",
+    {{"out", true, "DIR", "The results go to DIR/<name>/."},
+     {"start", false, {}, "Where the linearized iterations start."},
+     {"noise_position"},
+     {"noise_orientation"},
+     {"seed", false, {}, "The same seed draws the same folds, repetitions and starts."},
+     {"unit_magnitude"},
+     {"iterations"},
+     {"tolerance"},
+     {"folds"},
+     {"draws"},
+     {"starts"},
+     {"config"},
+     {"threads"},
+     {"json"},
+     {"quiet"},
+     {"force"}},
+    &RunCompare,
 };
 
 const Command kPredict = {
@@ -87,7 +120,7 @@ const CommandFlag* Command::FindFlag(std::string_view flag) const {
 }
 
 const std::vector<Command>& Commands() {
-  static const std::vector<Command> commands = {kCalibrate, kPredict, kSimulate};
+  static const std::vector<Command> commands = {kCalibrate, kCompare, kPredict, kSimulate};
   return commands;
 }
 

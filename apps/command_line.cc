@@ -186,6 +186,7 @@ void CheckComplete(const CommandLine& line) {
     if (!spec.together_with.empty() && WasGiven(spec) && !WasGiven(*FindFlag(spec.together_with)))
       Refuse(command, fmt::format("--{} needs --{} beside it", own.name, spec.together_with));
     if (spec.only_with_flag.empty() || line.given.count(own.name) == 0) continue;
+    if (command.FindFlag(spec.only_with_flag) == nullptr) continue;  // it always has that effect
     if (CurrentText(*FindFlag(spec.only_with_flag)) == spec.only_with_value) continue;
     Refuse(command,
            fmt::format("--{} has an effect only with --{}={}",

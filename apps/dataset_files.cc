@@ -3,14 +3,34 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/message.h"
 
 namespace hexcal {
+namespace {
+
+constexpr std::size_t kMaxWarnings = 10;
+
+}  // namespace
 
 Dataset OpenDataset(const std::string& path, bool needs_measurement) {
   Dataset dataset = ReadDataset(path, needs_measurement);
   for (const std::string& warning : dataset.warnings) PrintWarning(warning);
   return dataset;
+}
+
+void PrintNewWarnings(const Dataset& dataset,
+                      const std::vector<std::string>& warnings,
+                      const std::string& file) {
+  std::size_t count = 0;
+  for (const std::string& warning : warnings) {
+    if (std::count(dataset.warnings.begin(), dataset.warnings.end(), warning) > 0) continue;
+    if (++count <= kMaxWarnings) PrintWarning(dataset.name + ": " + warning);
+  }
+  if (count > kMaxWarnings)
+    PrintWarning(
+        fmt::format("{}: {} more warnings, in {}", dataset.name, count - kMaxWarnings, file));
 }
 
 std::vector<std::string> InputFiles(const Dataset& dataset, const std::string& model) {

@@ -52,6 +52,16 @@ DEFINE_double(noise,
               1.0,
               "Factor on every standard deviation that the dataset states; 0: no noise.");
 DEFINE_int64(seed, 1, "The same seed draws the same noise.");
+DEFINE_int32(folds,
+             5,
+             "Into so many parts the poses are cut to see how well the others predict each.");
+DEFINE_int32(draws,
+             10000,
+             "How often the measurement is repeated to check the covariance; up to ten times as "
+             "often where the limits do not stand still.");
+DEFINE_int32(starts,
+             20,
+             "Starts a cell of the maps of where the linearized iterations arrive; 0: no maps.");
 DEFINE_int32(threads, 0, "Threads to use. The results do not depend on it.");
 DEFINE_bool(json, false, "Print the results as JSON instead, one object a line.");
 DEFINE_bool(quiet, false, "Print no results and no progress; warnings and errors stay.");
@@ -64,6 +74,7 @@ constexpr std::string_view kResults = "Results";
 constexpr std::string_view kMethod = "Method";
 constexpr std::string_view kNoise = "Noise";
 constexpr std::string_view kLinearized = "The linearized solver";
+constexpr std::string_view kComparison = "Comparison";
 constexpr std::string_view kRunning = "Running";
 
 std::vector<FlagSpec> MakeSpecs() {
@@ -98,6 +109,9 @@ std::vector<FlagSpec> MakeSpecs() {
        {"approach_first", "normal_first", "nearest_rotation", "columns", "rows"}},
       {"iterations", kLinearized, "N", "", {}, 1, 10000},
       {"tolerance", kLinearized, "STEP", "", {}, 0.0, 1.0, true},
+      {"folds", kComparison, "N", "", {}, 2, 1000},
+      {"draws", kComparison, "N", "", {}, 1000, 1e7},
+      {"starts", kComparison, "N", "", {}, 0, 10000},
       {"config", kRunning, "FILE.yaml", ""},
       {"threads", kRunning, "N", "all cores", {}, 1, 1024},
   };

@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/result_json.h"
 
+#include "report/json_parts.h"
 #include "report/json_text.h"
 
 namespace hexcal {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <typename Derived>
-Json List(const Eigen::DenseBase<Derived>& v) {
-  Json list = Json::array();
-  for (Eigen::Index i = 0; i < v.size(); ++i) list.push_back(v(i));
-  return list;
-}
-
-Json PoseObject(const Pose3d& pose) {
-  const Eigen::Matrix4d matrix = pose.Matrix();
-  Json rows = Json::array();
-  for (int i = 0; i < 4; ++i) rows.push_back(List(matrix.row(i)));
-  const Eigen::Quaterniond& q = pose.rotation;
-  return {{"xyz", List(pose.translation)},
-          {"quaternion", {q.w(), q.x(), q.y(), q.z()}},
-          {"matrix", rows}};
-}
 
 Json CovarianceRows(const Matrix12d& covariance, const Observability& observability) {
   Json rows = Json::array();
@@ -38,32 +22,18 @@ Json CovarianceRows(const Matrix12d& covariance, const Observability& observabil
   return rows;
 }
 
-Json StandardDeviations(const Matrix12d& covariance, const Observability& observability) {
-  Json list = Json::array();
-  for (int i = 0; i < 12; ++i)
-    list.push_back(observability.determined[i] ? Json(std::sqrt(covariance(i, i))) : Json());
-  return list;
-}
-
 Matrix12d Correlation(const Matrix12d& covariance) {
   const Vector12d scale =
       covariance.diagonal().unaryExpr([](double v) { return v > 0 ? 1.0 / std::sqrt(v) : 0.0; });
   return scale.asDiagonal() * covariance * scale.asDiagonal();
 }
 
-Json Iterations(const Estimate& estimate) {
-  Json list = Json::array();
-  for (const IterationRecord& r : estimate.iterations)
-    list.push_back({{"cost", r.cost}, {"rmspe", r.rmspe}, {"rmsoe", r.rmsoe}});
-  return list;
-}
-
 Json Poses(const Estimate& estimate) {
   Json list = Json::array();
   for (const PoseResult& p : estimate.poses) {
-    Json pose = {{"pose", p.label}, {"weight", p.weight}, {"residual", List(p.residual)}};
+    Json pose = {{"pose", p.label}, {"weight", p.weight}, {"residual", JsonList(p.residual)}};
     for (const MarkerMisfit& m : p.markers)
-      pose["markers"].push_back({{"marker", m.marker}, {"residual", List(m.residual)}});
+      pose["markers"].push_back({{"marker", m.marker}, {"residual", JsonList(m.residual)}});
     list.push_back(std::move(pose));
   }
   return list;
@@ -78,7 +48,7 @@ Json Outliers(const Estimate& estimate) {
                     {"p_value", o.p_value},
                     {"position_sigmas", o.position_sigmas},
                     {"orientation_sigmas", o.orientation_sigmas},
-                    {"residual", List(o.residual)}});
+                    {"residual", JsonList(o.residual)}});
   return list;
 }
 
@@ -87,14 +57,8 @@ Json Noise(const NoiseSummary& noise) {
                  {"orientation", noise.orientation},
                  {"estimated", noise.estimated},
                  {"assumed", std::string(NameOf(noise.assumed))}};
-  if (noise.marker) object["marker"] = List(*noise.marker);
+  if (noise.marker) object["marker"] = JsonList(*noise.marker);
   return object;
-}
-
-Json ParameterNames() {
-  Json list = Json::array();
-  for (const ParameterInfo& p : kParameters) list.push_back(std::string(p.name));
-  return list;
 }
 
 Json ResultObject(const ResultHeader& header, const Estimate& estimate) {
@@ -106,23 +70,23 @@ Json ResultObject(const ResultHeader& header, const Estimate& estimate) {
   result["residual"] = header.residual;
   if (!header.error.empty()) result["error"] = header.error;
   result["converged"] = estimate.converged;
-  result["world_from_base"] = PoseObject(estimate.mounts.world_from_base);
-  result["platform_from_tool"] = PoseObject(estimate.mounts.platform_from_tool);
-  result["parameters"] = ParameterNames();
+  result["world_from_base"] = JsonPose(estimate.mounts.world_from_base);
+  result["platform_from_tool"] = JsonPose(estimate.mounts.platform_from_tool);
+  result["parameters"] = JsonParameterNames();
   result["covariance"] = CovarianceRows(estimate.covariance, observability);
-  result["standard_deviation"] = StandardDeviations(estimate.covariance, observability);
+  result["standard_deviation"] = JsonStandardDeviations(estimate.covariance, observability);
   result["correlation"] = CovarianceRows(Correlation(estimate.covariance), observability);
   result["covariance_unscaled"] = CovarianceRows(estimate.covariance_unscaled, observability);
   result["standard_deviation_unscaled"] =
-      StandardDeviations(estimate.covariance_unscaled, observability);
+      JsonStandardDeviations(estimate.covariance_unscaled, observability);
   result["noise"] = Noise(estimate.noise);
   result["noise_scale"] = estimate.noise_scale;
   result["rmspe"] = estimate.rmspe;
   result["rmsoe"] = estimate.rmsoe;
   result["chi_square"] = estimate.chi_square;
   result["degrees_of_freedom"] = estimate.degrees_of_freedom;
-  result["iterations"] = Iterations(estimate);
-  result["observability"] = {{"singular_values", List(observability.singular_values)},
+  result["iterations"] = JsonIterations(estimate.iterations);
+  result["observability"] = {{"singular_values", JsonList(observability.singular_values)},
                              {"condition_number", observability.condition_number},
                              {"weak_directions", observability.weak_directions}};
   result["poses"] = Poses(estimate);

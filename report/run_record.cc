@@ -25,6 +25,12 @@ std::string RunJson(const RunRecord& record) {
   run["started"] = record.started_utc;
   run["seconds"] = record.seconds;
   run["threads"] = record.threads;
+  for (const MethodTime& m : record.methods)
+    run["methods"].push_back({{"name", m.name},
+                              {"seconds", m.seconds},
+                              {"seconds_per_iteration",
+                               m.iterations > 0 ? nlohmann::ordered_json(m.seconds / m.iterations)
+                                                : nlohmann::ordered_json()}});
   return JsonText(run);
 }
 

@@ -7,6 +7,13 @@
 
 namespace hexcal {
 
+// How long one of several methods took.
+struct MethodTime {
+  std::string name;
+  double seconds = 0.0;
+  int iterations = 0;  // 0: none, a closed form
+};
+
 // Where a result comes from: what may differ between two runs that give the same result.
 struct RunRecord {
   std::string version;                                        // of hexcal and its libraries, lines
@@ -15,6 +22,7 @@ struct RunRecord {
   std::string started_utc;                                    // ISO 8601
   double seconds = 0.0;
   int threads = 1;
+  std::vector<MethodTime> methods;  // hexcal compare
 };
 
 // run.json, format hexcal/run/1.

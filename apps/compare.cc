@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/compare.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "apps/calibrate_options.h"
+#include "apps/dataset_files.h"
+#include "apps/exit_status.h"
+#include "apps/flags.h"
+#include "apps/in_order.h"
+#include "apps/message.h"
+#include "apps/output_folder.h"
+#include "apps/progress.h"
+#include "apps/record_of.h"
+#include "config/input_error.h"
+#include "report/compare_json.h"
+#include "report/compare_table.h"
+
+namespace hexcal {
+namespace {
+
+constexpr std::string_view kCompareMark = R"("format": "hexcal/compare/)";
+
+CompareOptions OptionsFromFlags() {
+  CompareOptions options;
+  options.calibrate = CalibrateOptionsFromFlags();
+  options.folds = FLAGS_folds;
+  options.draws = FLAGS_draws;
+  options.starts = FLAGS_starts;
+  options.seed = static_cast<std::uint64_t>(FLAGS_seed);
+  options.threads = ThreadsFor(FLAGS_threads);
+  return options;
+}
+
+std::optional<BaseAndTool> InitialOf(const Dataset& dataset, const CalibrateOptions& options) {
+  if (dataset.initial)
+    return BaseAndTool{dataset.initial->world_from_base, dataset.initial->platform_from_tool};
+  if (options.start == Start::kInitial)
+    throw InputError(
+        FileLocation(dataset.path), "no key 'initial'", "a first guess for --start=initial");
+  return std::nullopt;
+}
+
+// One bar for each of the things that are done.
+class Bars {
+ public:
+  void Update(std::string_view label, long done, long of) {
+    if (label != label_) {
+      bar_.reset();
+      label_ = label;
+      bar_ = std::make_unique<Progress>(std::string(label), FLAGS_quiet);
+    }
+    bar_->Update(done, of);
+  }
+
+ private:
+  std::string_view label_;
+  std::unique_ptr<Progress> bar_;
+};
+
+Comparison CompareWithBars(const Dataset& dataset, CompareOptions options) {
+  const std::optional<BaseAndTool> initial = InitialOf(dataset, options.calibrate);
+  const Observations observations = MakeObservations(dataset);
+  Bars bars;
+  options.progress = [&bars](std::string_view label, long done, long of) {
+    bars.Update(label, done, of);
+  };
+  return Compare(observations, initial, options);
+}
+
+}  // namespace
+
+int RunCompare(const std::vector<std::string>& files) {
+  const auto start = std::chrono::steady_clock::now();
+  const Dataset dataset = OpenDataset(files[0], true);
+  OutputFolder folder(
+      FLAGS_out,
+      dataset.name,
+      {{"compare.json", std::string(kCompareMark)}, {"run.json", std::string(kRunMark)}},
+      InputFiles(dataset, ""),
+      FLAGS_force);
+  const CompareOptions options = OptionsFromFlags();
+  const Comparison comparison = CompareWithBars(dataset, options);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  RunRecord record = RecordOf("compare", dataset, seconds, options.threads);
+  record.methods = TimesOf(comparison);
+  folder.Write("compare.json", CompareJson(dataset.name, options, comparison));
+  folder.Write("run.json", RunJson(record));
+  PrintNewWarnings(dataset, comparison.reference.warnings, "compare.json");
+  if (FLAGS_json && !FLAGS_quiet)
+    fmt::print("{}\n", CompareJsonLine(dataset.name, options, comparison));
+  else if (!FLAGS_quiet)
+    fmt::print("{}\n  written to     {}\n\n",
+               CompareTable(dataset.name, options, comparison),
+               folder.path());
+  return comparison.reference.IsTrustworthy() ? kDone : kNotTrusted;
+}
+
+}  // namespace hexcal

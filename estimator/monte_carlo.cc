@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/monte_carlo.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <future>
+#include <random>
+
+#include "residuals/pose_stream.h"
+
+namespace hexcal {
+namespace {
+
+constexpr double kCoverage = 0.95;
+constexpr double kNormalFactor = 1.959963984540054;  // of a 95 % interval
+constexpr int kDigits = 2;
+// The draws are cut into so many blocks, whose scatter tells how still the limits stand.
+constexpr int kBlocks = 10;
+constexpr int kMostRounds = 10;
+constexpr int kMaxSteps = 30;
+// Squared length of a step in standard deviations after which nothing is left to do.
+constexpr double kArrived = 1e-8;
+// Noise below so many roundings of the data is none.
+constexpr double kRoundings = 1e4;
+
+using Draws = Eigen::Matrix<double, 12, Eigen::Dynamic>;
+
+// Draws of the estimator and, from the same noise, of its linear part; minus the estimate.
+struct Block {
+  Draws estimator, linear;
+  int not_converged = 0;
+};
+
+class Repeater {
+ public:
+  Repeater(const Observations& observations, const NoiseLevels& levels, const Estimate& estimate)
+      : rows_(observations.items),
+        mounts_(estimate.mounts),
+        weights_(PoseWeights::PerPose(rows_.size())) {
+    const std::size_t n = rows_.size();
+    predicted_.reserve(n), roots_.reserve(n), gains_.reserve(n);
+    Matrix12d normal = Matrix12d::Zero();
+    for (const Observation& o : rows_) {
+      const Matrix6d c = ErrorCovariance(o, observations, mounts_.platform_from_tool, levels);
+      const Eigen::LLT<Matrix6d> llt(c);
+      predicted_.push_back(mounts_.world_from_base * o.base_from_platform *
+                           mounts_.platform_from_tool);
+      roots_.push_back(llt.matrixL());
+      weights_.Add(c);
+      // At a perfect fit the error's derivative is -PaperJacobian, so that the linear estimator
+      // moves by N^-1 J' C^-1 e, e = root z.
+      const Matrix6x12d whitened =
+          llt.matrixL().solve(PaperJacobian(o.base_from_platform * mounts_.platform_from_tool));
+      normal += whitened.transpose() * whitened;
+      gains_.push_back(whitened.transpose());
+    }
+    const Matrix12d inverse = Eigen::LLT<Matrix12d>(normal).solve(Matrix12d::Identity());
+    for (auto& gain : gains_) gain = inverse * gain;
+    sigma_ = inverse.diagonal().cwiseSqrt();
+  }
+
+  const Vector12d& sigma() const { return sigma_; }
+
+  // The block of that number, the same whenever and wherever it is drawn.
+  Block Run(int draws, std::uint64_t seed, std::size_t number) const {
+    Block block;
+    block.estimator.resize(12, draws);
+    block.linear.resize(12, draws);
+    std::seed_seq words{seed & 0xffffffffU, seed >> 32, static_cast<std::uint64_t>(number)};
+    std::mt19937_64 rng(words);
+    for (int k = 0; k < draws; ++k) {
+      PoseBatch batch;
+      const Vector12d linear = Draw(rng, &batch);
+      block.linear.col(k) = linear;
+      BaseAndTool found = Moved(mounts_, linear);
+      block.not_converged += !Solve(batch, &found);
+      block.estimator.col(k) << Minus(found.world_from_base, mounts_.world_from_base),
+          Minus(found.platform_from_tool, mounts_.platform_from_tool);
+    }
+    return block;
+  }
+
+ private:
+  static BaseAndTool Moved(const BaseAndTool& mounts, const Vector12d& step) {
+    return {Plus(mounts.world_from_base, Vector6d(step.head<6>())),
+            Plus(mounts.platform_from_tool, Vector6d(step.tail<6>()))};
+  }
+
+  // Fills the batch with one repetition and gives what the linear estimator makes of it.
+  Vector12d Draw(std::mt19937_64& rng, PoseBatch* batch) const {
+    std::normal_distribution<double> normal;
+    batch->Reserve(rows_.size());
+    Vector12d linear = Vector12d::Zero();
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      Vector6d z;
+      for (double& value : z) value = normal(rng);
+      batch->Add(rows_[i].base_from_platform, Plus(predicted_[i], Vector6d(roots_[i] * z)));
+      linear += gains_[i] * z;
+    }
+    return linear;
+  }
+
+  // Gauss-Newton steps until they are nothing.
+  bool Solve(const PoseBatch& batch, BaseAndTool* mounts) const {
+    const PoseStream stream(batch, weights_);
+    for (int k = 0; k < kMaxSteps; ++k) {
+      const NormalEquations equations = stream.At(*mounts);
+      const Matrix12d normal = equations.normal;
+      const Vector12d gradient = equations.gradient;
+      const Vector12d step = -Eigen::LLT<Matrix12d>(normal).solve(gradient);
+      const double size = -step.dot(gradient);
+      if (!std::isfinite(size)) return false;
+      *mounts = Moved(*mounts, step);
+      if (size < kArrived) return true;
+    }
+    return false;
+  }
+
+  const std::vector<Observation>& rows_;
+  const BaseAndTool& mounts_;
+  std::vector<Pose3d> predicted_;
+  std::vector<Matrix6d> roots_;  // of the covariances
+  std::vector<Eigen::Matrix<double, 12, 6>> gains_;
+  PoseWeights weights_;
+  Vector12d sigma_;
+};
+
+// The ends of the probabilistically symmetric interval (JCGM 101, 7.7).
+std::pair<double, double> Ends(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto m = static_cast<std::ptrdiff_t>(values.size());
+  const std::ptrdiff_t inside = std::llround(kCoverage * static_cast<double>(m));
+  const std::ptrdiff_t low = std::max<std::ptrdiff_t>((m - inside) / 2 - 1, 0);
+  return {values[low], values[std::min(low + inside, m - 1)]};
+}
+
+// Of one parameter over some of the blocks, by control variates.
+struct Limits {
+  double low = 0.0, high = 0.0, bias = 0.0;
+};
+
+Limits LimitsOf(
+    const std::vector<Block>& blocks, std::size_t first, std::size_t count, int row, double sigma) {
+  std::vector<double> estimator, linear;
+  double bias = 0.0;
+  for (std::size_t b = first; b < first + count; ++b)
+    for (Eigen::Index k = 0; k < blocks[b].linear.cols(); ++k) {
+      estimator.push_back(blocks[b].estimator(row, k));
+      linear.push_back(blocks[b].linear(row, k));
+      bias += estimator.back() - linear.back();
+    }
+  const auto [low, high] = Ends(estimator);
+  const auto [linear_low, linear_high] = Ends(linear);
+  return {low - linear_low - kNormalFactor * sigma,
+          high - linear_high + kNormalFactor * sigma,
+          bias / static_cast<double>(linear.size())};
+}
+
+IntervalCheck CheckOne(const std::vector<Block>& blocks, int row, double sigma) {
+  IntervalCheck check;
+  check.sigma = sigma;
+  check.tolerance = NumericalTolerance(sigma, kDigits);
+  const Limits all = LimitsOf(blocks, 0, blocks.size(), row, sigma);
+  check.low = all.low, check.high = all.high, check.bias = all.bias;
+  check.low_difference = std::abs(all.low + kNormalFactor * sigma);
+  check.high_difference = std::abs(all.high - kNormalFactor * sigma);
+  check.agrees =
+      check.low_difference <= check.tolerance && check.high_difference <= check.tolerance;
+  // Two standard errors of the mean over the blocks.
+  double low = 0.0, high = 0.0, low_squares = 0.0, high_squares = 0.0;
+  const auto count = static_cast<double>(blocks.size());
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const Limits one = LimitsOf(blocks, b, 1, row, sigma);
+    low += one.low / count, high += one.high / count;
+    low_squares += one.low * one.low / count, high_squares += one.high * one.high / count;
+  }
+  const double variance = std::max(low_squares - low * low, high_squares - high * high);
+  check.accuracy = 2.0 * std::sqrt(std::max(variance, 0.0) / (count - 1.0));
+  return check;
+}
+
+// Runs blocks number first to first + kBlocks, a few at a time, in order.
+void Append(const Repeater& repeater,
+            const MonteCarloOptions& options,
+            std::vector<Block>* blocks) {
+  const std::size_t end = blocks->size() + kBlocks;
+  std::deque<std::future<Block>> running;
+  const int size = std::max(options.draws / kBlocks, 1);
+  for (std::size_t next = blocks->size(); blocks->size() < end;) {
+    for (; next < end && running.size() < static_cast<std::size_t>(std::max(options.threads, 1));
+         ++next) {
+      running.push_back(std::async(std::launch::async, [&repeater, &options, size, next] {
+        return repeater.Run(size, options.seed, next);
+      }));
+    }
+    blocks->push_back(running.front().get());
+    running.pop_front();
+    if (options.progress)
+      options.progress(static_cast<long>(blocks->size()), static_cast<long>(end));
+  }
+}
+
+}  // namespace
+
+double NumericalTolerance(double sigma, int digits) {
+  if (!(sigma > 0) || !std::isfinite(sigma)) return 0.0;
+  return 0.5 * std::pow(10.0, std::floor(std::log10(sigma)) + 1 - digits);
+}
+
+PropagationCheck CheckPropagation(const Observations& observations,
+                                  const NoiseLevels& levels,
+                                  const Estimate& estimate,
+                                  const MonteCarloOptions& options) {
+  PropagationCheck check;
+  if (!estimate.converged) {
+    check.why_not = "the solver did not converge";
+    return check;
+  }
+  if (estimate.observability.null_directions > 0) {
+    check.why_not = "the data do not determine " + estimate.observability.weak_directions[0];
+    return check;
+  }
+  const NoiseLevels rounding = Rounding(observations.items);
+  if (!(estimate.noise.position > kRoundings * rounding.position &&
+        estimate.noise.orientation > kRoundings * rounding.orientation)) {
+    check.why_not = "there is no noise to repeat but rounding";
+    return check;
+  }
+  const Repeater repeater(observations, levels, estimate);
+  std::vector<Block> blocks;
+  for (int round = 0; round < kMostRounds && !check.stable; ++round) {
+    Append(repeater, options, &blocks);
+    check.stable = check.validated = true;
+    for (int i = 0; i < 12; ++i) {
+      check.intervals[i] = CheckOne(blocks, i, repeater.sigma()[i]);
+      check.stable =
+          check.stable && check.intervals[i].accuracy <= 0.2 * check.intervals[i].tolerance;
+      check.validated = check.validated && check.intervals[i].agrees;
+    }
+  }
+  check.done = true;
+  for (const Block& block : blocks) {
+    check.draws += static_cast<int>(block.linear.cols());
+    check.not_converged += block.not_converged;
+  }
+  return check;
+}
+
+}  // namespace hexcal

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// hexcal compare from outside. What the numbers ought to be is tested with the estimators.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "testing/run_program.h"
+#include "testing/temporary_folder.h"
+
+namespace hexcal {
+namespace {
+
+using ::hexcal::testing::ProgramResult;
+using ::hexcal::testing::RunHexcal;
+using ::hexcal::testing::TemporaryFolder;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+constexpr const char* kModel = R"(format: hexcal/model/1
+dataset: demo
+world_from_base: {xyz: [0.1, 0.2, 0.3], quaternion: [0.995, 0.0999, 0, 0]}
+platform_from_tool: {xyz: [0.1, 0.05, 0.2], quaternion: [0.995, 0, 0.0999, 0]}
+)";
+constexpr const char* kRows = R"(    - [a, 0, 0, 0.4, 0, 0, 0]
+    - [b, 0.05, 0, 0.4, 0.3, 0, 0]
+    - [c, 0, 0.05, 0.42, 0, 0.3, 0]
+    - [d, 0.02, 0.01, 0.38, 0, 0, 0.3]
+    - [e, -0.05, 0.03, 0.41, -0.2, 0.2, 0.1]
+    - [f, 0.01, -0.04, 0.39, 0.1, -0.3, -0.2]
+    - [g, 0.03, -0.02, 0.4, 0.2, 0.1, -0.2]
+)";
+constexpr const char* kOneAxisRows = R"(    - [a, 0, 0, 0.4, 0, 0, 0]
+    - [b, 0.05, 0, 0.4, 0, 0, 0.3]
+    - [c, 0, 0.05, 0.42, 0, 0, -0.2]
+    - [d, 0.02, 0.01, 0.38, 0, 0, 0.2]
+)";
+
+class CliCompare : public ::testing::Test {
+ protected:
+  CliCompare() { folder.Write("m.yaml", kModel); }
+
+  void Make(const std::string& rows) {
+    folder.Write("d.yaml",
+                 "format: hexcal/dataset/1\nname: demo\nunits: {length: m, angle: rad}\n"
+                 "robot_poses:\n  rows:\n    - [pose, x, y, z, rx, ry, rz]\n" +
+                     rows +
+                     "measurement:\n  kind: poses\n  rows:\n    - [pose, x, y, z, rx, ry, rz]\n" +
+                     rows + "  noise: {position: 0.0001, orientation: 0.001}\n");
+    const ProgramResult made =
+        Call({"simulate", "d.yaml", "--model=m.yaml", "--out=data", "--quiet"});
+    ASSERT_EQ(made.status, 0) << made.err;
+  }
+
+  ProgramResult Call(const std::vector<std::string>& arguments) const {
+    return RunHexcal({arguments, folder.Path("")});
+  }
+
+  ProgramResult Compare(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {
+        "compare", "data/demo/dataset.yaml", "--out=out", "--draws=1000", "--starts=2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Call(arguments);
+  }
+
+  Json Read(const std::string& name) const { return Json::parse(folder.Read("out/demo/" + name)); }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(CliCompare, SetsAllMethodsSideBySide) {
+  Make(kRows);
+  const ProgramResult result = Compare({});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, IsEmpty());
+  for (const char* text : {"paper's iteration",
+                           "twist iteration",
+                           "Zhuang",
+                           "Shah",
+                           "Li",
+                           "Park-Martin",
+                           "nonlinear",
+                           "proven",
+                           "JCGM 101",
+                           "held out, 5 folds"})
+    EXPECT_THAT(result.out, HasSubstr(text));
+
+  const Json compare = Read("compare.json");
+  EXPECT_EQ(compare["format"], "hexcal/compare/1");
+  EXPECT_EQ(compare["poses"], 7);
+  std::vector<std::string> names;
+  for (const Json& method : compare["methods"]) {
+    names.push_back(method["name"]);
+    EXPECT_EQ(method["difference"].size(), 12u);
+    EXPECT_TRUE(method["held_out"]["position"].is_number());
+    EXPECT_EQ(method["world_from_base"]["quaternion"].size(), 4u);
+  }
+  EXPECT_THAT(names,
+              ElementsAre("paper", "twist", "zhuang", "shah", "li", "park_martin", "nonlinear"));
+  EXPECT_EQ(compare["certificate"]["certified"], true);
+  EXPECT_EQ(compare["propagation"]["intervals"].size(), 12u);
+  EXPECT_EQ(compare["propagation"]["intervals"][11]["parameter"], "tool.rz");
+  EXPECT_EQ(compare["convergence"][1]["method"], "twist");
+  EXPECT_EQ(compare["convergence"][1]["share"].size(),
+            compare["convergence"][1]["rotation_errors"].size());
+
+  const Json run = Read("run.json");
+  EXPECT_EQ(run["methods"].size(), 7u);
+  EXPECT_GT(run["methods"][0]["seconds_per_iteration"], 0.0);
+  EXPECT_TRUE(run["methods"][3]["seconds_per_iteration"].is_null());
+  EXPECT_EQ(run["settings"]["draws"], "1000");
+}
+
+TEST_F(CliCompare, WritesTheSameBytesWhateverTheThreadsAndNoTimes) {
+  Make(kRows);
+  ASSERT_EQ(Compare({"--threads=1"}).status, 0);
+  const std::string one = folder.Read("out/demo/compare.json");
+  ASSERT_EQ(Compare({"--threads=3"}).status, 0);
+  EXPECT_EQ(folder.Read("out/demo/compare.json"), one);
+  EXPECT_THAT(one, Not(HasSubstr("seconds")));
+  ASSERT_EQ(Compare({"--seed=2"}).status, 0);
+  EXPECT_NE(folder.Read("out/demo/compare.json"), one);
+}
+
+TEST_F(CliCompare, PrintsTheSameAsJsonOrNothing) {
+  Make(kRows);
+  const ProgramResult json = Compare({"--json"});
+  EXPECT_EQ(Json::parse(json.out), Read("compare.json"));
+  const ProgramResult quiet = Call(
+      {"compare", "data/demo/dataset.yaml", "--out=out", "--draws=1000", "--starts=0", "--quiet"});
+  EXPECT_THAT(quiet.out, IsEmpty());
+  EXPECT_EQ(Read("compare.json")["convergence"][0]["share"].size(), 0u);
+}
+
+TEST_F(CliCompare, TellsByItsStatusThatTheDataLeaveADirectionOpen) {
+  Make(kOneAxisRows);
+  const ProgramResult result = Compare({});
+  EXPECT_EQ(result.status, 4);
+  EXPECT_THAT(result.out, HasSubstr("not proven: there is more than one best solution"));
+  const Json compare = Read("compare.json");
+  EXPECT_EQ(compare["certificate"]["certified"], false);
+  EXPECT_EQ(compare["propagation"]["done"], false);
+  EXPECT_TRUE(compare["standard_deviation"][2].is_null());
+  EXPECT_TRUE(compare["methods"][3]["difference"][2].is_null());
+}
+
+TEST_F(CliCompare, TakesTheFlagsOfItsOwnAndOfTheIterations) {
+  Make(kRows);
+  ASSERT_EQ(Compare({"--iterations=3", "--tolerance=1e-15", "--folds=2"}).status, 0);
+  const Json compare = Read("compare.json");
+  EXPECT_EQ(compare["methods"][0]["iterations"].size(), 4u);
+  EXPECT_EQ(compare["methods"][0]["converged"], false);
+  EXPECT_EQ(compare["folds"], 2);
+  EXPECT_EQ(Compare({"--folds=1"}).status, 2);
+  EXPECT_EQ(Compare({"--solver=linearized"}).status, 2);
+  EXPECT_EQ(Call({"compare", "--out=out"}).status, 2);
+  const ProgramResult initial = Compare({"--start=initial"});
+  EXPECT_EQ(initial.status, 3);
+  EXPECT_THAT(initial.err, HasSubstr("no key 'initial'"));
+}
+
+}  // namespace
+}  // namespace hexcal
