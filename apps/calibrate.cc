@@ -51,6 +51,8 @@ class CalibrateRun {
     OpenAll();
     {
       Progress progress("calibrating", FLAGS_quiet);
+      // One dataset has the threads to itself; several share them.
+      if (jobs_.size() == 1) options_.threads = threads_;
       if (jobs_.size() == 1)
         options_.nonlinear.after_iteration = [&progress](int done, int at_most) {
           progress.Update(done, at_most);

@@ -51,6 +51,8 @@ CalibrateOptions CalibrateOptionsFromFlags() {
   if (FLAGS_noise_position > 0)
     options.noise = NoiseLevels{FLAGS_noise_position, FLAGS_noise_orientation};
   options.outliers = FLAGS_outliers == "reject" ? OutlierHandling::kReject : OutlierHandling::kKeep;
+  options.evaluation =
+      FLAGS_evaluation == "per_pose" ? Evaluation::kPerPose : Evaluation::kStreamed;
   options.linearized.error =
       FLAGS_error == "twist" ? LinearizedOptions::Error::kTwist : LinearizedOptions::Error::kPaper;
   options.linearized.unit_magnitude = FromName(FLAGS_unit_magnitude, kReadings);
@@ -68,8 +70,11 @@ bool IsByMarkers(const Dataset& dataset, const CalibrateOptions& options) {
       throw UsageError(fmt::format(
           "--residual=marker: the measurement of {} is of kind poses, it has no markers",
           dataset.path));
+    if (options.evaluation == Evaluation::kPerPose)
+      throw UsageError("--evaluation=per_pose goes with --residual=pose only");
     return true;
   }
+  if (options.evaluation == Evaluation::kPerPose) return false;
   // Noise that is given is of poses.
   const bool has_use_for_noise = options.noise && !dataset.measurement->marker_sigma;
   return FLAGS_residual.empty() && has_markers && !is_linearized && !has_use_for_noise;

@@ -27,6 +27,7 @@ const Command kCalibrate = {
      {"solver"},
      {"residual"},
      {"start"},
+     {"evaluation"},
      {"outliers"},
      {"noise_position"},
      {"noise_orientation"},

@@ -29,6 +29,12 @@ DEFINE_string(
     "keep",
     "Poses that the others contradict (data snooping, one clean dataset in a hundred lists "
     "one): named and used all the same, or left out, the fit being that of the others.");
+DEFINE_string(
+    evaluation,
+    "streamed",
+    "How the nonlinear problem of poses is evaluated: in one pass over all of them, or by "
+    "one automatically differentiated residual block a pose, the reference. The solution "
+    "is the same.");
 DEFINE_string(error,
               "paper",
               "What the iteration makes small: the difference of pose vectors of Eq. (22), or the "
@@ -97,6 +103,7 @@ std::vector<FlagSpec> MakeSpecs() {
        "linearized",
        {"closed_form", "initial", "identity", "shah", "park_martin"}},
       {"outliers", kMethod, "", "", {"keep", "reject"}},
+      {"evaluation", kMethod, "", "", {"streamed", "per_pose"}},
       {"noise_position", kNoise, "M", "estimated", {}, 1e-20, 1.0, false, "noise_orientation"},
       {"noise_orientation", kNoise, "RAD", "estimated", {}, 1e-20, 1.0, false, "noise_position"},
       {"noise", kNoise, "FACTOR", "", {}, 0.0, 1e6},

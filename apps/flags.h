@@ -14,6 +14,7 @@ DECLARE_string(config);
 DECLARE_string(solver);
 DECLARE_string(residual);
 DECLARE_string(start);
+DECLARE_string(evaluation);
 DECLARE_string(outliers);
 DECLARE_string(error);
 DECLARE_string(unit_magnitude);

@@ -111,9 +111,10 @@ class Judgement {
 
   void SetIntervals() {
     const Matrix12d& covariance = estimate_.covariance;
-    if (!weighting_.levels_estimated)
-      estimate_.intervals = IntervalsOfKnownNoise(covariance);
-    else if (sums_ && sums_->variances && estimate_.observability.null_directions == 0)
+    if (!weighting_.levels_estimated) estimate_.intervals = IntervalsOfKnownNoise(covariance);
+    // The error of a tracker that stood still is not of these levels.
+    else if (sums_ && sums_->variances && estimate_.observability.null_directions == 0 &&
+             !observations_.tracker_from_world)
       estimate_.intervals =
           IntervalsOfEstimatedNoise(covariance, sums_->equations.components, *sums_->variances);
     else

@@ -52,6 +52,7 @@ class MarkerJudgement {
     SetResiduals();
     SetNoise();
     SetCovariance();
+    SetIntervals();
     AddWarnings();
   }
 
@@ -118,6 +119,13 @@ class MarkerJudgement {
     estimate_.covariance_unscaled = result.covariance;
     const double scale = solution_.sigma_estimated ? std::pow(estimate_.noise_scale, 2) : 1.0;
     estimate_.covariance = scale * result.covariance;
+  }
+
+  void SetIntervals() {
+    estimate_.intervals =
+        solution_.sigma_estimated
+            ? IntervalsOfScaledNoise(estimate_.covariance, estimate_.degrees_of_freedom)
+            : IntervalsOfKnownNoise(estimate_.covariance);
   }
 
   void AddWarnings() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/result_json.h"
 
+#include <cmath>
+
 #include "report/json_parts.h"
 #include "report/json_text.h"
 
@@ -20,6 +22,15 @@ Json CovarianceRows(const Matrix12d& covariance, const Observability& observabil
     rows.push_back(row);
   }
   return rows;
+}
+
+// null: not determined, or infinite.
+Json Determined(const Vector12d& values, const Observability& observability) {
+  Json list = Json::array();
+  for (int i = 0; i < 12; ++i)
+    list.push_back(observability.determined[i] && std::isfinite(values[i]) ? Json(values[i])
+                                                                           : Json());
+  return list;
 }
 
 Matrix12d Correlation(const Matrix12d& covariance) {
@@ -79,6 +90,10 @@ Json ResultObject(const ResultHeader& header, const Estimate& estimate) {
   result["covariance_unscaled"] = CovarianceRows(estimate.covariance_unscaled, observability);
   result["standard_deviation_unscaled"] =
       JsonStandardDeviations(estimate.covariance_unscaled, observability);
+  result["half_width_95"] = Determined(estimate.intervals.half_width, observability);
+  result["effective_degrees_of_freedom"] =
+      Determined(estimate.intervals.degrees_of_freedom, observability);
+  result["ellipsoid_95"] = estimate.intervals.ellipsoid;
   result["noise"] = Noise(estimate.noise);
   result["noise_scale"] = estimate.noise_scale;
   result["rmspe"] = estimate.rmspe;

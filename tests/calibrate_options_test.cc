@@ -91,6 +91,10 @@ TEST_F(CalibrateOptionsTest, TheResidualFollowsFromTheMeasurementTheSolverAndThe
   EXPECT_FALSE(is_by_markers(markers));
   markers.measurement->marker_sigma = Eigen::Vector3d::Ones();
   EXPECT_TRUE(is_by_markers(markers));
+  Set("evaluation", "per_pose");
+  EXPECT_FALSE(is_by_markers(markers));
+  Set("residual", "marker");
+  EXPECT_THROW(is_by_markers(markers), UsageError);
   EXPECT_EQ(HeaderOf("d", CalibrateOptionsFromFlags(), true).residual, "marker");
   EXPECT_EQ(HeaderOf("d", CalibrateOptionsFromFlags(), false).residual, "pose");
 }

@@ -157,6 +157,32 @@ TEST_F(CliCalibrate, TheBytesDependNeitherOnTheRunNorOnTheThreads) {
   EXPECT_EQ(folder.Read("one/good/model.yaml"), folder.Read("two/good/model.yaml"));
 }
 
+TEST_F(CliCalibrate, OneResidualBlockAPoseFindsTheSame) {
+  EXPECT_EQ(Calibrate({"--out=one"}).status, 0);
+  EXPECT_EQ(Calibrate({"--out=two", "--evaluation=per_pose"}).status, 0);
+  const nlohmann::json one = nlohmann::json::parse(Result("one/good"));
+  const nlohmann::json two = nlohmann::json::parse(Result("two/good"));
+  for (const char* mount : {"world_from_base", "platform_from_tool"})
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(double(one[mount]["xyz"][i]), double(two[mount]["xyz"][i]), 1e-10);
+  for (int i = 0; i < 12; ++i) {
+    const double sigma = two["standard_deviation"][i];
+    EXPECT_NEAR(double(one["standard_deviation"][i]), sigma, 1e-10 * sigma);
+  }
+}
+
+// The noise is stated: normal quantiles, which no number of degrees of freedom limits.
+TEST_F(CliCalibrate, IntervalsGoWithTheStandardDeviations) {
+  EXPECT_EQ(Calibrate({"--out=out"}).status, 0);
+  const nlohmann::json result = nlohmann::json::parse(Result("out/good"));
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_NEAR(
+        double(result["half_width_95"][i]) / double(result["standard_deviation"][i]), 1.96, 0.001);
+    EXPECT_TRUE(result["effective_degrees_of_freedom"][i].is_null());
+  }
+  EXPECT_NEAR(double(result["ellipsoid_95"]), 21.026, 0.001);
+}
+
 TEST_F(CliCalibrate, JsonIsAnObjectALineAndNothingElse) {
   Make("other", kGoodRows);
   const ProgramResult result = Calibrate({"data/other/dataset.yaml", "--out=out", "--json"});
