@@ -14,7 +14,6 @@
 
 #include "estimator/calibrate.h"
 #include "estimator/calibrate_markers.h"
-#include "estimator/quantiles.h"
 #include "study_markers.h"
 #include "study_scene.h"
 
@@ -23,25 +22,6 @@ DEFINE_int32(poses, 0, "this number of poses only");
 
 namespace hexcal {
 namespace {
-
-constexpr double kLevel = 0.95;
-
-// What an estimate claims: how many sigmas make its intervals, and how large e' C^-1 e may be.
-struct Claim {
-  Vector12d sigmas;
-  double ellipsoid = 0.0;
-};
-
-Claim NoiseGiven(const Estimate&) {
-  return {Vector12d::Constant(std::sqrt(ChiSquareQuantile(kLevel, 1.0))),
-          ChiSquareQuantile(kLevel, 12.0)};
-}
-
-Claim NoiseEstimated(const Estimate& estimate) {
-  const double dof = estimate.degrees_of_freedom;
-  return {Vector12d::Constant(StudentTQuantile(0.5 + 0.5 * kLevel, dof)),
-          12.0 * FisherFQuantile(kLevel, 12.0, dof)};
-}
 
 // One draw: what was found, and what is true.
 struct Trial {
@@ -53,7 +33,6 @@ struct Case {
   std::string name;
   int poses;
   std::function<Trial(int draw)> run;
-  std::function<Claim(const Estimate&)> claim;
 };
 
 struct Coverage {
@@ -68,12 +47,11 @@ Coverage Study(const Case& c) {
     const Trial trial = c.run(i);
     const Estimate& estimate = trial.estimate;
     CHECK(estimate.IsTrustworthy()) << estimate.message;
-    const Claim claim = c.claim(estimate);
     const Vector12d error = Error(estimate.mounts, trial.truth);
-    const Vector12d width = claim.sigmas.cwiseProduct(estimate.covariance.diagonal().cwiseSqrt());
+    const Vector12d& width = estimate.intervals.half_width;
     coverage.intervals += part * (error.array().abs() <= width.array()).cast<double>().matrix();
     const double distance = error.dot(Vector12d(estimate.covariance.llt().solve(error)));
-    if (distance <= claim.ellipsoid) coverage.ellipsoid += part;
+    if (distance <= estimate.intervals.ellipsoid) coverage.ellipsoid += part;
   }
   return coverage;
 }
@@ -85,8 +63,7 @@ std::vector<Case> PoseCases(int poses) {
       return Trial{Calibrate(Draw(scene, draw, noise_is_given), {}, {}), scene.truth};
     };
   };
-  return {{"poses; noise given", poses, run(true), NoiseGiven},
-          {"poses; noise estimated", poses, run(false), NoiseEstimated}};
+  return {{"poses; noise given", poses, run(true)}, {"poses; noise estimated", poses, run(false)}};
 }
 
 // Each marker unseen in 3 % of the poses; calibrated from the tool poses and from the readings.
@@ -103,10 +80,10 @@ std::vector<Case> MarkerCases(int poses) {
                    study.truth};
     };
   };
-  return {{"markers, by pose; noise given", poses, run(false, true), NoiseGiven},
-          {"markers, by pose; noise estimated", poses, run(false, false), NoiseEstimated},
-          {"markers, by marker; noise given", poses, run(true, true), NoiseGiven},
-          {"markers, by marker; noise estimated", poses, run(true, false), NoiseEstimated}};
+  return {{"markers, by pose; noise given", poses, run(false, true)},
+          {"markers, by pose; noise estimated", poses, run(false, false)},
+          {"markers, by marker; noise given", poses, run(true, true)},
+          {"markers, by marker; noise estimated", poses, run(true, false)}};
 }
 
 void Run() {

@@ -232,9 +232,17 @@ class Calibration {
       Refuse(
           "no base and tool explain how the poses move: they hardly do, some are grossly wrong, or "
           "units, rotations or the order of the rows are");
-    else if (ChosenStart() != Start::kClosedForm &&
+    else if (ChosenStart() != Start::kClosedForm && misfit.Total() > RoundingMisfit() &&
              MisfitOf(rows, FindStart(rows)).Total() < kMuchBetter * misfit.Total())
       Refuse("it ended in a local minimum: --start=closed_form finds a better one");
+  }
+
+  // What rounding alone leaves: nothing is better than that.
+  double RoundingMisfit() const {
+    const NoiseLevels rounding = Rounding(observations_.items),
+                      spread = Spread(observations_.items);
+    return std::pow(kRoundings * rounding.position / spread.position, 2) +
+           std::pow(kRoundings * rounding.orientation / spread.orientation, 2);
   }
 
   void Refuse(const char* message) {

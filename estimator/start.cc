@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "estimator/closed_form.h"
-#include "estimator/nonlinear.h"
+#include "estimator/pose_fit.h"
 #include "estimator/rms.h"
 
 namespace hexcal {
@@ -18,14 +18,6 @@ constexpr double kGoodMisfit = 1e-2;
 constexpr std::size_t kSearchPoses = 60;
 constexpr int kSearchIterations = 50;
 constexpr double kSearchTolerance = 1e-9;
-
-Matrix6d SpreadWhitener(const Rows& rows) {
-  const NoiseLevels spread = Spread(rows);
-  Vector6d weight;
-  weight << Eigen::Vector3d::Constant(1.0 / spread.position),
-      Eigen::Vector3d::Constant(1.0 / spread.orientation);
-  return weight.asDiagonal();
-}
 
 // The best of what it was offered.
 struct Best {
@@ -85,13 +77,17 @@ BaseAndTool FindStart(const Rows& rows) {
   }
 
   const Rows few = Thinned(rows);
-  const std::vector<Matrix6d> whiteners(few.size(), SpreadWhitener(few));
-  NonlinearOptions options;
-  options.max_iterations = kSearchIterations;
-  options.tolerance = kSearchTolerance;
+  const NoiseLevels spread = Spread(few);
+  const PoseWeights weights = PoseWeights::Isotropic(spread.position, spread.orientation);
+  PoseBatch batch;
+  for (const Observation& o : few) batch.Add(o.base_from_platform, o.world_from_tool);
+  PoseFitOptions options;
+  options.method = PoseFitOptions::Method::kTiny;
+  options.nonlinear.max_iterations = kSearchIterations;
+  options.nonlinear.tolerance = kSearchTolerance;
   const Eigen::Matrix3d base = best.mounts.world_from_base.rotation.toRotationMatrix();
   for (const Eigen::Matrix3d& turn : CubeRotations())
-    best.Offer(SolveNonlinear(few, whiteners, CompleteBase(few, base * turn), options).mounts);
+    best.Offer(FitPoses(batch, &weights, CompleteBase(few, base * turn), options).solution.mounts);
   return best.mounts;
 }
 
