@@ -35,12 +35,30 @@ constexpr std::array<std::pair<std::string_view, Start>, 5> kStarts = {
      {"initial", Start::kInitial},
      {"identity", Start::kIdentity}}};
 
+constexpr std::array<std::pair<std::string_view, LossKind>, 4> kLosses = {
+    {{"none", LossKind::kNone},
+     {"huber", LossKind::kHuber},
+     {"cauchy", LossKind::kCauchy},
+     {"tukey", LossKind::kTukey}}};
+
 constexpr std::array<std::pair<std::string_view, Reading>, 5> kReadings = {
     {{"approach_first", Reading::kApproachFirst},
      {"normal_first", Reading::kNormalFirst},
      {"nearest_rotation", Reading::kNearestRotation},
      {"columns", Reading::kColumns},
      {"rows", Reading::kRows}}};
+
+// What only the nonlinear problem of poses has.
+bool IsRobust(const CalibrateOptions& options) {
+  return options.loss.kind != LossKind::kNone || options.covariance == CovarianceKind::kSandwich;
+}
+
+void RequireNonlinear(const CalibrateOptions& options) {
+  if (FLAGS_loss_scale > 0 && options.loss.kind == LossKind::kNone)
+    throw UsageError("--loss_scale needs a --loss other than none");
+  if (options.solver == Solver::kLinearized && IsRobust(options))
+    throw UsageError("--loss and --covariance=sandwich go with --solver=nonlinear only");
+}
 
 }  // namespace
 
@@ -53,6 +71,10 @@ CalibrateOptions CalibrateOptionsFromFlags() {
   options.outliers = FLAGS_outliers == "reject" ? OutlierHandling::kReject : OutlierHandling::kKeep;
   options.evaluation =
       FLAGS_evaluation == "per_pose" ? Evaluation::kPerPose : Evaluation::kStreamed;
+  options.loss = DefaultLoss(FromName(FLAGS_loss, kLosses));
+  if (FLAGS_loss_scale > 0) options.loss.scale = FLAGS_loss_scale;
+  if (FLAGS_covariance == "sandwich") options.covariance = CovarianceKind::kSandwich;
+  RequireNonlinear(options);
   options.linearized.error =
       FLAGS_error == "twist" ? LinearizedOptions::Error::kTwist : LinearizedOptions::Error::kPaper;
   options.linearized.unit_magnitude = FromName(FLAGS_unit_magnitude, kReadings);
@@ -66,6 +88,8 @@ bool IsByMarkers(const Dataset& dataset, const CalibrateOptions& options) {
   const bool is_linearized = options.solver == Solver::kLinearized;
   if (FLAGS_residual == "marker") {
     if (is_linearized) throw UsageError("--residual=marker goes with --solver=nonlinear only");
+    if (IsRobust(options))
+      throw UsageError("--loss and --covariance=sandwich go with --residual=pose only");
     if (!has_markers)
       throw UsageError(fmt::format(
           "--residual=marker: the measurement of {} is of kind poses, it has no markers",
@@ -77,7 +101,8 @@ bool IsByMarkers(const Dataset& dataset, const CalibrateOptions& options) {
   if (options.evaluation == Evaluation::kPerPose) return false;
   // Noise that is given is of poses.
   const bool has_use_for_noise = options.noise && !dataset.measurement->marker_sigma;
-  return FLAGS_residual.empty() && has_markers && !is_linearized && !has_use_for_noise;
+  return FLAGS_residual.empty() && has_markers && !is_linearized && !has_use_for_noise &&
+         !IsRobust(options);
 }
 
 ResultHeader HeaderOf(const std::string& dataset,

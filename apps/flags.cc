@@ -24,6 +24,17 @@ DEFINE_string(start,
               "",
               "Where the solver starts: the best closed form, the dataset's 'initial', the "
               "identity, or one closed form by name.");
+DEFINE_string(loss,
+              "none",
+              "How much less a pose counts the further off it is. The scale is from the data.");
+DEFINE_double(loss_scale,
+              0.0,
+              "From how many standard deviations of a pose, all six numbers together, the loss "
+              "counts it less. Goes with --loss.");
+DEFINE_string(covariance,
+              "model",
+              "By the noise that weighs the poses, or by how their residuals really scatter "
+              "(sandwich), which holds where the noise differs from pose to pose.");
 DEFINE_string(
     outliers,
     "keep",
@@ -104,6 +115,9 @@ std::vector<FlagSpec> MakeSpecs() {
        {"closed_form", "initial", "identity", "shah", "park_martin"}},
       {"outliers", kMethod, "", "", {"keep", "reject"}},
       {"evaluation", kMethod, "", "", {"streamed", "per_pose"}},
+      {"loss", kMethod, "", "", {"none", "huber", "cauchy", "tukey"}},
+      {"loss_scale", kMethod, "SIGMAS", "95 % efficient", {}, 0.1, 1000.0, false, "loss"},
+      {"covariance", kMethod, "", "", {"model", "sandwich"}},
       {"noise_position", kNoise, "M", "estimated", {}, 1e-20, 1.0, false, "noise_orientation"},
       {"noise_orientation", kNoise, "RAD", "estimated", {}, 1e-20, 1.0, false, "noise_position"},
       {"noise", kNoise, "FACTOR", "", {}, 0.0, 1e6},

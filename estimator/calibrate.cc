@@ -45,6 +45,10 @@ class Calibration {
         IsLinearized() && options.linearized.error == LinearizedOptions::Error::kPaper;
     weighting_.levels_estimated = !observations.tool_noise_is_known && !options.noise;
     weighting_.levels = options.noise.value_or(Spread(observations.items));
+    weighting_.loss = options.loss;
+    weighting_.covariance = options.covariance;
+    CHECK(!IsLinearized() || (!HasLoss() && options.covariance == CovarianceKind::kModel))
+        << "the linearized iteration knows neither loss nor sandwich";
   }
 
   Estimate Run() {
@@ -53,6 +57,7 @@ class Calibration {
       estimate_.warnings.push_back(
           "the dataset states its noise; the noise given beside it is not used");
     estimate_.mounts = FirstGuess();
+    if (HasLoss()) StartRobustly();
     if (weighting_.paper_error)
       FitAsThePaper();
     else if (IsLinearized())
@@ -70,6 +75,16 @@ class Calibration {
 
  private:
   bool IsLinearized() const { return options_.solver == Solver::kLinearized; }
+
+  bool HasLoss() const { return options_.loss.kind != LossKind::kNone; }
+
+  // A loss needs a start that outliers have not drawn to themselves, and a noise without them that
+  // says from where on an error is large.
+  void StartRobustly() {
+    const OutlierSearch search = FindOutliers(observations_, options_.noise, options_.snooping);
+    if (!options_.start) estimate_.mounts = search.mounts;
+    if (weighting_.levels_estimated) weighting_.levels = search.levels;
+  }
 
   Start ChosenStart() const {
     const Start usual = !IsLinearized() ? Start::kClosedForm
@@ -117,7 +132,7 @@ class Calibration {
       if (observations_.has_robot_noise)
         FitInRounds();
       else
-        FitStreamed(weighting_.levels_estimated ? std::nullopt : std::optional(Weights()));
+        FitStreamed(LevelsMove() ? std::nullopt : std::optional(Weights()));
       if (KeepsItsWeakest(sums_->equations.normal)) return;
       sums_.reset();
       estimate_.iterations.clear();
@@ -132,6 +147,7 @@ class Calibration {
     PoseFitOptions options;
     options.nonlinear = options_.nonlinear;
     options.threads = options_.threads;
+    options.loss = options_.loss;
     const PoseFit fit = FitPoses(batch_, weights ? &*weights : nullptr, estimate_.mounts, options);
     Take(fit.solution);
     sums_ = {fit.equations, fit.variances};
@@ -164,7 +180,8 @@ class Calibration {
       if (IsStreamed())
         FitStreamed(Weights());
       else
-        Take(SolveNonlinear(observations_.items, Whiteners(), mounts, options_.nonlinear));
+        Take(SolveNonlinear(
+            observations_.items, Whiteners(), mounts, options_.nonlinear, options_.loss));
       EstimateLevels();
       if (!estimate_.converged || !WeightsMove()) return;
       const double change = Change(mounts, levels);
@@ -198,10 +215,12 @@ class Calibration {
     } while (!estimate_.converged || Change(estimate_.mounts, levels) >= 1.0);
   }
 
-  bool WeightsMove() const { return weighting_.levels_estimated || observations_.has_robot_noise; }
+  bool LevelsMove() const { return weighting_.levels_estimated && !HasLoss(); }
+
+  bool WeightsMove() const { return LevelsMove() || observations_.has_robot_noise; }
 
   void EstimateLevels() {
-    if (weighting_.levels_estimated)
+    if (LevelsMove())
       weighting_.levels = EstimateNoise(observations_, estimate_.mounts, weighting_.levels);
   }
 

@@ -8,6 +8,8 @@
 #include "estimator/linearized.h"
 #include "estimator/nonlinear.h"
 #include "estimator/rejection.h"
+#include "estimator/sandwich.h"
+#include "residuals/robust_loss.h"
 
 namespace hexcal {
 
@@ -28,6 +30,10 @@ struct CalibrateOptions {
   std::optional<NoiseLevels> noise;  // in place of a noise that is not given; else it is estimated
   LinearizedOptions linearized;
   NonlinearOptions nonlinear;
+  // Of each pose; the nonlinear solver's alone. Levels that are not known are then those of the
+  // poses that a search for outliers keeps, and so is the start.
+  RobustLoss loss;
+  CovarianceKind covariance = CovarianceKind::kModel;  // kSandwich: the nonlinear solver's alone
   OutlierHandling outliers = OutlierHandling::kNotSought;
   OutlierOptions snooping;  // of the search for them
   int threads = 1;          // of the passes over many poses; the result does not depend on it

@@ -63,8 +63,11 @@ class Judgement {
     ForEachWhitened(
         [&](const Observation& o, const Matrix6d& covariance, const Matrix6d& whitener) {
           const Vector6d e = PoseError(estimate_.mounts, o.base_from_platform, o.world_from_tool);
-          estimate_.poses.push_back({o.label, 1.0, e});
-          estimate_.chi_square += (whitener * e).squaredNorm();
+          const double squared = (whitener * e).squaredNorm();
+          double rho, weight;
+          weighting_.loss.Evaluate(squared, &rho, &weight);
+          estimate_.poses.push_back({o.label, weight, e});
+          estimate_.chi_square += weight * squared;
           rms.Add(e);
           mean_variance += covariance.diagonal() / n;
         });
@@ -88,14 +91,26 @@ class Judgement {
     if (weighting_.paper_error) result.covariance = PaperCovariance();
 
     const int parameters = 12 - result.observability.null_directions;
-    estimate_.degrees_of_freedom = 6 * static_cast<int>(observations_.items.size()) - parameters;
+    const auto counted = std::count_if(estimate_.poses.begin(),
+                                       estimate_.poses.end(),
+                                       [](const PoseResult& pose) { return pose.weight > 0.0; });
+    estimate_.degrees_of_freedom = 6 * static_cast<int>(counted) - parameters;
     estimate_.noise_scale = std::sqrt(estimate_.chi_square / estimate_.degrees_of_freedom);
     // The paper's estimator leaves more than the noise; its covariance knows that already.
     const bool is_scaled = weighting_.levels_estimated && !weighting_.paper_error;
-    const double scale = is_scaled ? std::pow(estimate_.noise_scale, 2) : 1.0;
+    double scale = is_scaled ? std::pow(estimate_.noise_scale, 2) : 1.0;
+    if (HasLoss())
+      scale =
+          LossCovarianceFactor(observations_, estimate_.mounts, weighting_.levels, weighting_.loss);
     const Matrix12d common = CommonTrackerCovariance();
     estimate_.covariance_unscaled = result.covariance + common;
-    estimate_.covariance = scale * result.covariance + common;
+    estimate_.covariance = (IsSandwich() ? Sandwich() : scale * result.covariance) + common;
+  }
+
+  bool HasLoss() const { return weighting_.loss.kind != LossKind::kNone; }
+  bool IsSandwich() const { return weighting_.covariance == CovarianceKind::kSandwich; }
+  Matrix12d Sandwich() const {
+    return SandwichCovariance(observations_, estimate_.mounts, weighting_.levels, weighting_.loss);
   }
 
   // From the fit's normal matrix, or from the rows themselves.
@@ -103,15 +118,22 @@ class Judgement {
     if (sums_ && KeepsItsWeakest(sums_->equations.normal))
       return RowsOf(sums_->equations).jacobian.topRows<12>();
     JacobianFactor factor;
+    auto pose = estimate_.poses.begin();
     ForEachWhitened([&](const Observation& o, const Matrix6d&, const Matrix6d& whitener) {
-      factor.Add(whitener * Linearise(o, estimate_.mounts).jacobian);
+      factor.Add(std::sqrt((pose++)->weight) * whitener * Linearise(o, estimate_.mounts).jacobian);
     });
     return factor.R();
   }
 
   void SetIntervals() {
     const Matrix12d& covariance = estimate_.covariance;
-    if (!weighting_.levels_estimated) estimate_.intervals = IntervalsOfKnownNoise(covariance);
+    if (IsSandwich())  // every pose is one draw of it
+      estimate_.intervals =
+          IntervalsOfScaledNoise(covariance, static_cast<double>(observations_.items.size()) - 1.0);
+    else if (HasLoss())
+      estimate_.intervals = IntervalsOfScaledNoise(covariance, estimate_.degrees_of_freedom);
+    else if (!weighting_.levels_estimated)
+      estimate_.intervals = IntervalsOfKnownNoise(covariance);
     // The error of a tracker that stood still is not of these levels.
     else if (sums_ && sums_->variances && estimate_.observability.null_directions == 0 &&
              !observations_.tracker_from_world)

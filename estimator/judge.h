@@ -5,7 +5,9 @@
 
 #include "estimator/estimate.h"
 #include "estimator/observations.h"
+#include "estimator/sandwich.h"
 #include "estimator/variances.h"
+#include "residuals/robust_loss.h"
 
 namespace hexcal {
 
@@ -15,6 +17,8 @@ struct Weighting {
   bool levels_estimated = false;  // from these residuals
   bool paper_error =
       false;  // equal weights over the paper's pose differences (Eq. 22), else inverse covariances
+  RobustLoss loss;
+  CovarianceKind covariance = CovarianceKind::kModel;
 };
 
 // What the fit has summed up at its solution; nothing where that was another residual's or another

@@ -4,6 +4,8 @@
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
+#include <memory>
+
 #include "estimator/polish.h"
 #include "estimator/rms.h"
 #include "residuals/pose_manifold.h"
@@ -83,7 +85,8 @@ ceres::Solver::Options SolverOptions(const NonlinearOptions& options) {
 Solution SolveNonlinear(const std::vector<Observation>& observations,
                         const std::vector<Matrix6d>& whiteners,
                         const BaseAndTool& start,
-                        const NonlinearOptions& options) {
+                        const NonlinearOptions& options,
+                        const RobustLoss& loss) {
   CHECK_EQ(observations.size(), whiteners.size());
   Solution solution;
   if (!IsFinite(observations, whiteners, start)) {
@@ -98,6 +101,8 @@ Solution SolveNonlinear(const std::vector<Observation>& observations,
   PoseManifold manifold;
   ceres::Problem::Options problem_options;
   problem_options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  problem_options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  const std::unique_ptr<ceres::LossFunction> ceres_loss = CeresLoss(loss);
   ceres::Problem problem(problem_options);
   problem.AddParameterBlock(base, Pose3d::kNumParameters, &manifold);
   problem.AddParameterBlock(tool, Pose3d::kNumParameters, &manifold);
@@ -105,7 +110,7 @@ Solution SolveNonlinear(const std::vector<Observation>& observations,
     problem.AddResidualBlock(
         PoseResidual::Create(
             observations[i].base_from_platform, observations[i].world_from_tool, whiteners[i]),
-        nullptr,
+        ceres_loss.get(),
         base,
         tool);
 
@@ -117,9 +122,11 @@ Solution SolveNonlinear(const std::vector<Observation>& observations,
   solution.mounts = {Pose3d::FromParameters(base), Pose3d::FromParameters(tool)};
   solution.converged =
       summary.termination_type == ceres::CONVERGENCE ||
-      StepFrom(observations, whiteners, solution.mounts).decrease < kNothing * summary.final_cost;
+      StepFrom(
+          observations, Weighted(observations, whiteners, solution.mounts, loss), solution.mounts)
+              .decrease < kNothing * summary.final_cost;
   if (!solution.converged) solution.message = summary.message;
-  if (solution.converged) solution.mounts = Polish(observations, whiteners, solution.mounts);
+  if (solution.converged) solution.mounts = Polish(observations, whiteners, solution.mounts, loss);
   return solution;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "estimator/estimate.h"
+#include "residuals/robust_loss.h"
 
 namespace hexcal {
 
@@ -16,10 +17,12 @@ struct NonlinearOptions {
 };
 
 // The Ceres problem: world_from_base and platform_from_tool on PoseManifold, one PoseResidual an
-// observation with the given whiteners (one an observation), Levenberg-Marquardt with dense QR.
+// observation with the given whiteners (one an observation), Levenberg-Marquardt with dense QR; a
+// loss by Ceres's own class.
 Solution SolveNonlinear(const std::vector<Observation>& observations,
                         const std::vector<Matrix6d>& whiteners,
                         const BaseAndTool& start,
-                        const NonlinearOptions& options);
+                        const NonlinearOptions& options,
+                        const RobustLoss& loss = {});
 
 }  // namespace hexcal

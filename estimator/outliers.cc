@@ -10,6 +10,7 @@
 #include "config/units.h"
 #include "estimator/quantiles.h"
 #include "estimator/robust_start.h"
+#include "estimator/start.h"
 #include "estimator/subset_fit.h"
 
 namespace hexcal {
@@ -31,15 +32,21 @@ class Snooping {
         fit_(observations, noise),
         kept_(count_, false),
         came_back_(count_, false) {
+    if (count_ < kFewestPoses) {
+      kept_.assign(count_, true);
+      fit_.StartFrom(FindStart(observations.items), Spread(observations.items));
+      return;
+    }
     const RobustStart start = FindRobustStart(observations, noise);
     for (const std::size_t i : start.nearest) kept_[i] = true;
     fit_.StartFrom(start.mounts, start.levels);
   }
 
   OutlierSearch Run() {
-    Grow();
+    const bool is_searched = count_ >= kFewestPoses;
+    if (is_searched) Grow();
     fit_.Fit(kept_, false);
-    while (TakeOut() || TakeBack()) fit_.Fit(kept_, false);
+    while (is_searched && (TakeOut() || TakeBack())) fit_.Fit(kept_, false);
     OutlierSearch search;
     search.mounts = fit_.mounts();
     search.levels = fit_.levels();
@@ -160,7 +167,6 @@ OutlierSearch FindOutliers(const Observations& observations,
                            const std::optional<NoiseLevels>& noise,
                            const OutlierOptions& options) {
   CHECK(options.alpha > 0.0 && options.alpha < 1.0);
-  if (observations.items.size() < kFewestPoses) return {};
   return Snooping(observations, noise, options.alpha).Run();
 }
 

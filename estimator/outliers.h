@@ -40,7 +40,7 @@ struct OutlierSearch {
 // fit each time. A pose is judged by what the others predict for it (deletion residual, six degrees
 // of freedom; chi-square for a stated noise, F for an estimated one), at the level 1 - (1 -
 // alpha)^(1/n) that makes alpha that of all n poses (Sidak). At most as many as leave HalfOfPoses.
-// Fewer than six poses are not searched. A stated noise that the poses which agree disprove counts
+// Fewer than six poses are fitted only. A stated noise that the poses which agree disprove counts
 // as known but for a factor. References: W. Baarda, A Testing Procedure for Use in Geodetic
 // Networks (1968); A. S. Hadi, J. S. Simonoff, J. American Statistical Association 88 (1993).
 OutlierSearch FindOutliers(const Observations& observations,

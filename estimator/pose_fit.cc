@@ -53,7 +53,8 @@ class Fit {
       variances_ = Squared(spread), floor_ = Squared(rounding);
     }
     BaseAndTool mounts = start ? *start : FindStart(sample);
-    if (is_large) {
+    // A loss has a start that is better than what the sample would give without its levels.
+    if (is_large && options_.loss.kind == LossKind::kNone) {
       const PoseFit coarse = FitPoses(Packed(sample), nullptr, mounts, options_);
       if (coarse.solution.converged) {
         mounts = coarse.solution.mounts;

@@ -35,8 +35,12 @@ void AddWarnings(const Observations& all, OutlierHandling handling, Estimate* es
         "{} of {} poses left out as outliers: {}", count, of, LabelsOf(estimate->outliers)));
   else
     for (const Outlier& outlier : estimate->outliers)
-      estimate->warnings.push_back(fmt::format(
-          "pose {} looks like an outlier, but is used: {}", outlier.label, outlier.reason));
+      estimate->warnings.push_back(
+          fmt::format(estimate->poses[outlier.index].weight < 1.0
+                          ? "pose {} looks like an outlier: {}"
+                          : "pose {} looks like an outlier, but is used: {}",
+                      outlier.label,
+                      outlier.reason));
   if (static_cast<double>(count) > kManyOutliers * static_cast<double>(of))
     estimate->warnings.push_back(fmt::format(
         "{} outliers among {} poses are many: the model may miss something that only some poses "

@@ -7,6 +7,11 @@
 
 namespace hexcal {
 
+enum class CovarianceKind {
+  kModel,     // of the noise that weighs the poses, or of what the loss makes of it
+  kSandwich,  // SandwichCovariance
+};
+
 // Covariance of the mounts that does not believe the noise model: B^-1 (sum g_i g_i') B^-1, g_i =
 // J_i' w_i r_i the gradient of pose i (its six residuals may be correlated in any way), B = sum (w
 // + s rho''(s) / 3) J_i' J_i, r and J whitened, s = |r|^2. Right where the weights are not: noise

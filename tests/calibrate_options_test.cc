@@ -55,8 +55,19 @@ TEST_F(CalibrateOptionsTest, EveryFlagReachesItsOption) {
   EXPECT_EQ(header.error, "twist");
 }
 
+TEST_F(CalibrateOptionsTest, TheLossHasItsOwnScaleUnlessOneIsGiven) {
+  EXPECT_EQ(CalibrateOptionsFromFlags().loss.kind, LossKind::kNone);
+  Set("loss", "tukey");
+  Set("covariance", "sandwich");
+  EXPECT_EQ(CalibrateOptionsFromFlags().loss.kind, LossKind::kTukey);
+  EXPECT_EQ(CalibrateOptionsFromFlags().loss.scale, DefaultLoss(LossKind::kTukey).scale);
+  EXPECT_EQ(CalibrateOptionsFromFlags().covariance, CovarianceKind::kSandwich);
+  Set("loss_scale", "3.5");
+  EXPECT_EQ(CalibrateOptionsFromFlags().loss.scale, 3.5);
+}
+
 TEST_F(CalibrateOptionsTest, EveryChoiceOfAFlagHasAValue) {
-  for (const char* name : {"start", "unit_magnitude", "error"})
+  for (const char* name : {"start", "unit_magnitude", "error", "loss", "covariance"})
     for (const std::string_view choice : FindFlag(name)->choices) {
       const gflags::FlagSaver saver;
       Set(name, std::string(choice).c_str());

@@ -288,6 +288,11 @@ TEST_F(CliCalibrate, FlagsThatDoNotGoTogetherAreWrongUsage) {
   expect_wrong_usage({"--noise_position=0.1"}, "--noise_position needs --noise_orientation");
   expect_wrong_usage({"--solver=linear"}, "found 'linear', expected nonlinear or linearized");
   expect_wrong_usage({"--start=middle"}, "expected closed_form, initial");
+  expect_wrong_usage({"--loss_scale=3"}, "--loss_scale needs --loss");
+  expect_wrong_usage({"--loss=none", "--loss_scale=3"}, "needs a --loss other than none");
+  expect_wrong_usage({"--loss=l1"}, "expected none, huber, cauchy or tukey");
+  expect_wrong_usage({"--loss=huber", "--solver=linearized"}, "go with --solver=nonlinear only");
+  expect_wrong_usage({"--covariance=robust"}, "expected model or sandwich");
   expect_wrong_usage({"--outliers=drop"}, "found 'drop', expected keep or reject");
   expect_wrong_usage({"--threads=0"}, "expected a whole number from 1 to 1024");
   EXPECT_THAT(folder.Names(), UnorderedElementsAre("d.yaml", "data", "m.yaml"));
