@@ -22,6 +22,8 @@ constexpr double kSettled = 1e-10;
 // Changes below this that no longer shrink are rounding.
 constexpr double kStalled = 1e-3;
 constexpr double kRoundings = 64.0;
+// Of the cost: from the solution of a sample, Gauss-Newton steps do the rest.
+constexpr double kNearTolerance = 1e-6;
 
 // An even sample as plain rows, for what need not see all poses.
 std::vector<Observation> Sample(const PoseBatch& batch) {
@@ -57,6 +59,7 @@ class Fit {
     if (is_large && options_.loss.kind == LossKind::kNone) {
       const PoseFit coarse = FitPoses(Packed(sample), nullptr, mounts, options_);
       if (coarse.solution.converged) {
+        is_near_ = true;
         mounts = coarse.solution.mounts;
         if (!given_) variances_ = coarse.variances->values;
       }
@@ -79,9 +82,11 @@ class Fit {
     const PoseWeights own = given_ ? PoseWeights() : Weights();
     const PoseStream stream(batch_, given_ ? *given_ : own, options_.loss, options_.threads);
     ParameterBlocks blocks = BlocksOf(mounts);
+    NonlinearOptions nonlinear = options_.nonlinear;
+    if (is_near_) nonlinear.tolerance = std::max(nonlinear.tolerance, kNearTolerance);
     fit_.solution = options_.method == PoseFitOptions::Method::kTiny
-                        ? SolveTiny(stream, options_.nonlinear, &blocks, &fit_.equations)
-                        : SolveStreamed(stream, options_.nonlinear, &blocks, &fit_.equations);
+                        ? SolveTiny(stream, nonlinear, &blocks, &fit_.equations)
+                        : SolveStreamed(stream, nonlinear, &blocks, &fit_.equations);
     if (fit_.solution.converged && !given_) Refine(stream, &blocks);
   }
 
@@ -122,6 +127,7 @@ class Fit {
   const PoseWeights* given_;
   const PoseFitOptions& options_;
   Eigen::VectorXd variances_, floor_;
+  bool is_near_ = false;  // the solution of a sample is the start
   PoseFit fit_;
 };
 

@@ -27,13 +27,19 @@ class LocalRows {
             std::vector<IterationRecord>* records)
       : residual_(residual), origin_(origin), records_(records) {}
 
-  bool operator()(const double* motion, double* residuals, double* jacobian) const {
-    const Vector12d d = Eigen::Map<const Vector12d>(motion);
-    Eigen::Map<Eigen::Matrix<double, 13, 1>> r(residuals);
+  // One pass a point.
+  const NormalEquations& At(const Vector12d& d) const {
     if (d != point_ || equations_.poses == 0) {
       equations_ = Evaluate(residual_, Moved(origin_, d));
       point_ = d;
     }
+    return equations_;
+  }
+
+  bool operator()(const double* motion, double* residuals, double* jacobian) const {
+    const Vector12d d = Eigen::Map<const Vector12d>(motion);
+    Eigen::Map<Eigen::Matrix<double, 13, 1>> r(residuals);
+    At(d);
     if (jacobian == nullptr) {
       r.setZero();
       r[0] = std::sqrt(equations_.squared_norm);
@@ -77,12 +83,13 @@ Solution SolveTiny(const StreamedResidual& residual,
   solver.options.gradient_tolerance = 0.0;
   solver.options.cost_threshold = 0.0;
   Vector12d motion = Vector12d::Zero();
-  solver.Solve(LocalRows(residual, origin, &solution.iterations), &motion);
+  const LocalRows rows(residual, origin, &solution.iterations);
+  solver.Solve(rows, &motion);
   using Status = ceres::TinySolver<LocalRows>::Status;
   solution.converged = solver.summary.status != Status::HIT_MAX_ITERATIONS && motion.allFinite();
   if (solution.converged) {
     *blocks = Moved(origin, motion);
-    *equations = Evaluate(residual, *blocks);
+    *equations = rows.At(motion);
     *blocks = Polished(residual, *blocks, equations);
   } else {
     solution.message = "the small solver did not converge within its iterations";
