@@ -100,6 +100,12 @@ class CalibrateRun {
     }
   }
 
+  // The paper's problem has nothing to do with the noise: nothing is certified of it.
+  bool IsByEqualWeights() const {
+    return options_.solver == Solver::kLinearized &&
+           options_.linearized.error == LinearizedOptions::Error::kPaper;
+  }
+
   Outcome Work(const Dataset& dataset) const {
     const auto start = std::chrono::steady_clock::now();
     Outcome outcome;
@@ -116,6 +122,11 @@ class CalibrateRun {
               ? CalibrateMarkers(
                     observations, MakeMarkerObservations(dataset, observations), initial, options_)
               : Calibrate(observations, initial, options_);
+      if (!IsByEqualWeights())
+        outcome.estimate->certificate =
+            Certify(observations,
+                    LevelsOf(observations, options_.noise, *outcome.estimate),
+                    *outcome.estimate);
     } catch (const InputError& error) {
       outcome.refusal = error.what();
     }

@@ -8,6 +8,8 @@
 #include <cmath>
 
 #include "estimator/chordal_optimum.h"
+#include "estimator/estimate.h"
+#include "estimator/noise.h"
 
 namespace hexcal {
 namespace {
@@ -43,12 +45,19 @@ OneWeightEach Simplify(const Observations& observations,
                        const Estimate& estimate) {
   CHECK_EQ(observations.items.size(), estimate.poses.size());
   OneWeightEach problem;
+  const Pose3d& tool = estimate.mounts.platform_from_tool;
+  const bool common = HasCommonCovariance(observations);
+  Matrix6d c = ErrorCovariance(observations.items[0], observations, tool, levels);
+  bool isotropic = IsIsotropic(c);
   for (std::size_t i = 0; i < observations.items.size(); ++i) {
     const Observation& o = observations.items[i];
     const double weight = estimate.poses[i].weight;
     if (!(weight > 0)) continue;
-    const Matrix6d c = ErrorCovariance(o, observations, estimate.mounts.platform_from_tool, levels);
-    problem.exact = problem.exact && weight == 1.0 && IsIsotropic(c);
+    if (!common) {
+      c = ErrorCovariance(o, observations, tool, levels);
+      isotropic = IsIsotropic(c);
+    }
+    problem.exact = problem.exact && weight == 1.0 && isotropic;
     const double position = weight / c.diagonal().head<3>().mean();
     const double orientation = weight / c.diagonal().tail<3>().mean();
     problem.cost.Add(o, position, orientation);
@@ -123,6 +132,16 @@ Certificate Certify(const Observations& observations,
                   "kind, and move it by {:.2g} standard deviations",
                   certificate.distance);
   return certificate;
+}
+
+NoiseLevels LevelsOf(const Observations& observations,
+                     const std::optional<NoiseLevels>& given,
+                     const Estimate& estimate) {
+  if (observations.tool_noise_is_known) return {};
+  if (given) return *given;
+  const NoiseLevels levels{estimate.noise.position, estimate.noise.orientation};
+  if (!observations.has_robot_noise) return levels;
+  return EstimateNoise(observations, estimate.mounts, levels);
 }
 
 }  // namespace hexcal

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 
-#include "estimator/estimate.h"
 #include "estimator/observations.h"
 
 namespace hexcal {
+
+struct Estimate;
 
 // Whether a solution is the best there is anywhere, not just among its neighbours. What can be
 // proven so is the problem with one weight for the three coordinates of a pose and one for its
@@ -32,5 +34,11 @@ struct Certificate {
 Certificate Certify(const Observations& observations,
                     const NoiseLevels& levels,
                     const Estimate& estimate);
+
+// The levels that an estimate was weighted with: given, its own, or none where the observations
+// know the noise.
+NoiseLevels LevelsOf(const Observations& observations,
+                     const std::optional<NoiseLevels>& given,
+                     const Estimate& estimate);
 
 }  // namespace hexcal

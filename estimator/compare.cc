@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "estimator/noise.h"
 #include "estimator/rms.h"
 #include "residuals/whitener.h"
 
@@ -29,7 +28,7 @@ class Comparing {
     comparison_.reference =
         Calibrate(observations_, initial_, NonlinearOptionsOf(options_.calibrate));
     RunMethods();
-    levels_ = Levels();
+    levels_ = LevelsOf(observations_, options_.calibrate.noise, comparison_.reference);
     comparison_.certificate = Certify(observations_, levels_, comparison_.reference);
     MonteCarloOptions monte_carlo;
     monte_carlo.draws = options_.draws;
@@ -107,16 +106,6 @@ class Comparing {
         result->sigmas[i] /= std::sqrt(reference.covariance(i, i));
       else
         result->sigmas[i] = std::numeric_limits<double>::quiet_NaN();
-  }
-
-  // Of the tool noise, as the nonlinear solution has weighed with it.
-  NoiseLevels Levels() const {
-    if (observations_.tool_noise_is_known) return {};
-    if (options_.calibrate.noise) return *options_.calibrate.noise;
-    const NoiseSummary& noise = comparison_.reference.noise;
-    const NoiseLevels levels{noise.position, noise.orientation};
-    if (!observations_.has_robot_noise) return levels;
-    return EstimateNoise(observations_, comparison_.reference.mounts, levels);
   }
 
   void MapBoth() {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "estimator/certificate.h"
 #include "estimator/covariance.h"
 #include "estimator/intervals.h"
 #include "estimator/observations.h"
@@ -79,6 +80,7 @@ struct Estimate {
   Matrix12d covariance = Matrix12d::Zero();  // the one to use
   Intervals intervals;                       // 95 %, of covariance
   Observability observability;               // which of the 12 are determined
+  std::optional<Certificate> certificate;    // where asked for (Certify), not for equal weights
   std::vector<std::string> warnings;
 
   // False: the 12 parameters cannot be trusted (exit status 4).

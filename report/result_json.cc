@@ -104,6 +104,7 @@ Json ResultObject(const ResultHeader& header, const Estimate& estimate) {
   result["observability"] = {{"singular_values", JsonList(observability.singular_values)},
                              {"condition_number", observability.condition_number},
                              {"weak_directions", observability.weak_directions}};
+  result["certificate"] = estimate.certificate ? JsonCertificate(*estimate.certificate) : Json();
   result["poses"] = Poses(estimate);
   result["outliers"] = Outliers(estimate);
   result["effects"] = Json::array();

@@ -298,5 +298,16 @@ TEST_F(CliCalibrate, FlagsThatDoNotGoTogetherAreWrongUsage) {
   EXPECT_THAT(folder.Names(), UnorderedElementsAre("d.yaml", "data", "m.yaml"));
 }
 
+TEST_F(CliCalibrate, SaysWhetherTheSolutionIsTheBestAnywhere) {
+  ASSERT_EQ(Calibrate({"--out=out", "--quiet"}).status, 0);
+  const auto result = nlohmann::json::parse(Result("out/good"));
+  EXPECT_EQ(result["certificate"]["certified"], true);
+  EXPECT_EQ(result["certificate"]["exact"], true);
+  EXPECT_LT(result["certificate"]["gap"], 1e-5);
+  EXPECT_GT(result["certificate"]["smallest_eigenvalue"], 0.0);
+  Calibrate({"--out=out", "--quiet", "--solver=linearized"});
+  EXPECT_TRUE(nlohmann::json::parse(Result("out/good"))["certificate"].is_null());
+}
+
 }  // namespace
 }  // namespace hexcal
