@@ -53,7 +53,9 @@ const Command kCompare = {
     1,
     1,
     "Solves the dataset by the paper's iteration, the twist iteration, Zhuang's AX = YB, Shah, Li, "
-    "Park-Martin and the nonlinear problem, and shows how far each is from the nonlinear solution, "
+    "Park-Martin and the nonlinear problem (by pose, by marker where markers were measured, "
+    "without "
+    "outliers), and shows how far each is from the nonlinear solution, "
     "what it leaves over, how well it predicts poses that it has not seen, and what it costs. Says "
     "whether the nonlinear solution is proven to be the best anywhere, whether its covariance may "
     "be used (JCGM 101:2008, clause 8), and from which starts the iterations arrive. Writes "

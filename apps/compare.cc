@@ -65,6 +65,10 @@ class Bars {
 Comparison CompareWithBars(const Dataset& dataset, CompareOptions options) {
   const std::optional<BaseAndTool> initial = InitialOf(dataset, options.calibrate);
   const Observations observations = MakeObservations(dataset);
+  if (dataset.measurement->kind == Measurement::Kind::kMarkers)
+    options.markers = [&dataset](const Observations& some) {
+      return MakeMarkerObservations(dataset, some);
+    };
   Bars bars;
   options.progress = [&bars](std::string_view label, long done, long of) {
     bars.Update(label, done, of);

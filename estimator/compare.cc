@@ -58,6 +58,7 @@ class Comparing {
         DrawFolds(observations_.items.size(), options_.folds, options_.seed);
     if (!folds.empty()) comparison_.folds = *std::max_element(folds.begin(), folds.end()) + 1;
     for (const MethodInfo& info : kMethods) {
+      if (info.method == Method::kMarker && !options_.markers) continue;
       comparison_.methods.push_back(RunMethod(info.method, folds));
       if (options_.progress)
         options_.progress("comparing methods",
@@ -68,7 +69,7 @@ class Comparing {
 
   MethodResult RunMethod(Method method, const std::vector<int>& folds) const {
     const auto fit = [this, method](const Observations& observations) {
-      return Fit(method, observations, initial_, options_.calibrate);
+      return Fit(method, observations, initial_, options_.calibrate, options_.markers);
     };
     MethodResult result;
     result.method = method;

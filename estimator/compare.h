@@ -18,6 +18,7 @@ namespace hexcal {
 
 struct CompareOptions {
   CalibrateOptions calibrate;  // its solver and error are those of each method
+  MarkersOf markers;           // for the solution by marker; may be empty
   int folds = 5;               // of the cross-validation
   int draws = 10000;           // of the Monte Carlo check
   int starts = 20;             // of each cell of the convergence maps; 0: none
@@ -41,7 +42,7 @@ struct MethodResult {
 };
 
 struct Comparison {
-  std::vector<MethodResult> methods;    // in the order of kMethods
+  std::vector<MethodResult> methods;    // in the order of kMethods; kMarker only with markers
   Estimate reference;                   // the nonlinear solution
   Certificate certificate;              // of it
   PropagationCheck propagation;         // of its covariance

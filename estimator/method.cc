@@ -5,15 +5,13 @@
 
 #include <algorithm>
 
+#include "estimator/calibrate_markers.h"
 #include "estimator/closed_form.h"
 
 namespace hexcal {
 namespace {
 
-MethodFit Iterated(const Observations& observations,
-                   const std::optional<BaseAndTool>& initial,
-                   const CalibrateOptions& options) {
-  Estimate estimate = Calibrate(observations, initial, options);
+MethodFit FitOf(Estimate estimate) {
   return {estimate.mounts,
           estimate.converged,
           std::move(estimate.message),
@@ -37,17 +35,18 @@ const MethodInfo& InfoOf(Method method) {
 MethodFit Fit(Method method,
               const Observations& observations,
               const std::optional<BaseAndTool>& initial,
-              const CalibrateOptions& options) {
+              const CalibrateOptions& options,
+              const MarkersOf& markers) {
   CalibrateOptions own = options;
   switch (method) {
     case Method::kPaper:
       own.solver = Solver::kLinearized;
       own.linearized.error = LinearizedOptions::Error::kPaper;
-      return Iterated(observations, initial, own);
+      return FitOf(Calibrate(observations, initial, own));
     case Method::kTwist:
       own.solver = Solver::kLinearized;
       own.linearized.error = LinearizedOptions::Error::kTwist;
-      return Iterated(observations, initial, own);
+      return FitOf(Calibrate(observations, initial, own));
     case Method::kZhuang:
       return Closed(ClosedForm::kZhuang, observations);
     case Method::kShah:
@@ -59,7 +58,17 @@ MethodFit Fit(Method method,
     case Method::kNonlinear:
       own.solver = Solver::kNonlinear;
       own.start.reset();
-      return Iterated(observations, initial, own);
+      return FitOf(Calibrate(observations, initial, own));
+    case Method::kMarker:
+      CHECK(markers) << "no readings";
+      own.solver = Solver::kNonlinear;
+      own.start.reset();
+      return FitOf(CalibrateMarkers(observations, markers(observations), initial, own));
+    case Method::kRobust:
+      own.solver = Solver::kNonlinear;
+      own.start.reset();
+      own.outliers = OutlierHandling::kReject;
+      return FitOf(Calibrate(observations, initial, own));
   }
   return {};
 }

@@ -100,8 +100,9 @@ TEST_F(CliCompare, SetsAllMethodsSideBySide) {
     EXPECT_TRUE(method["held_out"]["position"].is_number());
     EXPECT_EQ(method["world_from_base"]["quaternion"].size(), 4u);
   }
-  EXPECT_THAT(names,
-              ElementsAre("paper", "twist", "zhuang", "shah", "li", "park_martin", "nonlinear"));
+  EXPECT_THAT(
+      names,
+      ElementsAre("paper", "twist", "zhuang", "shah", "li", "park_martin", "nonlinear", "robust"));
   EXPECT_EQ(compare["certificate"]["certified"], true);
   EXPECT_EQ(compare["propagation"]["intervals"].size(), 12u);
   EXPECT_EQ(compare["propagation"]["intervals"][11]["parameter"], "tool.rz");
@@ -110,7 +111,7 @@ TEST_F(CliCompare, SetsAllMethodsSideBySide) {
             compare["convergence"][1]["rotation_errors"].size());
 
   const Json run = Read("run.json");
-  EXPECT_EQ(run["methods"].size(), 7u);
+  EXPECT_EQ(run["methods"].size(), 8u);
   EXPECT_GT(run["methods"][0]["seconds_per_iteration"], 0.0);
   EXPECT_TRUE(run["methods"][3]["seconds_per_iteration"].is_null());
   EXPECT_EQ(run["settings"]["draws"], "1000");
@@ -162,6 +163,24 @@ TEST_F(CliCompare, TakesTheFlagsOfItsOwnAndOfTheIterations) {
   const ProgramResult initial = Compare({"--start=initial"});
   EXPECT_EQ(initial.status, 3);
   EXPECT_THAT(initial.err, HasSubstr("no key 'initial'"));
+}
+
+TEST_F(CliCompare, SolvesByMarkerToo) {
+  const ProgramResult result = Call({"compare",
+                                     std::string(HEXCAL_EXAMPLES) + "/neurobot/dataset.yaml",
+                                     "--out=out",
+                                     "--draws=1000",
+                                     "--starts=0"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("by marker"));
+  const Json compare = Json::parse(folder.Read("out/neurobot/compare.json"));
+  const Json& marker = compare["methods"][7];
+  EXPECT_EQ(marker["name"], "marker");
+  EXPECT_TRUE(marker["held_out"]["position"].is_number());
+  double most = 0.0;
+  for (const double sigmas : marker["difference"]) most = std::max(most, std::abs(sigmas));
+  EXPECT_LT(most, 0.2);  // rigid bodies: the poses keep nearly all that the readings say
+  EXPECT_GT(most, 0.0);
 }
 
 }  // namespace
