@@ -45,6 +45,7 @@ class Comparing {
   static CalibrateOptions NonlinearOptionsOf(CalibrateOptions options) {
     options.solver = Solver::kNonlinear;
     options.start.reset();
+    options.outliers = OutlierHandling::kNotSought;
     return options;
   }
 

@@ -38,6 +38,7 @@ MethodFit Fit(Method method,
               const CalibrateOptions& options,
               const MarkersOf& markers) {
   CalibrateOptions own = options;
+  own.outliers = OutlierHandling::kNotSought;
   switch (method) {
     case Method::kPaper:
       own.solver = Solver::kLinearized;

@@ -52,8 +52,9 @@ struct MethodFit {
 // The readings that some of the poses were made of; empty where there are none, and no kMarker.
 using MarkersOf = std::function<MarkerObservations(const Observations&)>;
 
-// options: those of calibrate; the iterations start as it would have them. What a method cannot do
-// (a base of half a turn for Zhuang's) comes out as it comes out.
+// options: those of calibrate; the iterations start as it would have them, and outliers are sought
+// by kRobust alone. What a method cannot do (a base of half a turn for Zhuang's) comes out as it
+// comes out.
 MethodFit Fit(Method method,
               const Observations& observations,
               const std::optional<BaseAndTool>& initial,
