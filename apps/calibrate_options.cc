@@ -94,11 +94,8 @@ bool IsByMarkers(const Dataset& dataset, const CalibrateOptions& options) {
       throw UsageError(fmt::format(
           "--residual=marker: the measurement of {} is of kind poses, it has no markers",
           dataset.path));
-    if (options.evaluation == Evaluation::kPerPose)
-      throw UsageError("--evaluation=per_pose goes with --residual=pose only");
     return true;
   }
-  if (options.evaluation == Evaluation::kPerPose) return false;
   // Noise that is given is of poses.
   const bool has_use_for_noise = options.noise && !dataset.measurement->marker_sigma;
   return FLAGS_residual.empty() && has_markers && !is_linearized && !has_use_for_noise &&

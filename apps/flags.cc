@@ -40,12 +40,11 @@ DEFINE_string(
     "keep",
     "Poses that the others contradict (data snooping, one clean dataset in a hundred lists "
     "one): named and used all the same, or left out, the fit being that of the others.");
-DEFINE_string(
-    evaluation,
-    "streamed",
-    "How the nonlinear problem of poses is evaluated: in one pass over all of them, or by "
-    "one automatically differentiated residual block a pose, the reference. The solution "
-    "is the same.");
+DEFINE_string(evaluation,
+              "streamed",
+              "How the nonlinear problem is evaluated: in one pass over all poses, or by one "
+              "automatically differentiated residual block a pose (by markers: a reading), the "
+              "reference. The solution is the same.");
 DEFINE_string(error,
               "paper",
               "What the iteration makes small: the difference of pose vectors of Eq. (22), or the "

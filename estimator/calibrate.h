@@ -19,7 +19,7 @@ enum class Start { kClosedForm, kShah, kParkMartin, kInitial, kIdentity };
 // How the nonlinear problem is evaluated: the same solution either way.
 enum class Evaluation {
   kStreamed,  // one pass over all poses, from which Ceres gets 13 rows
-  kPerPose,   // one automatically differentiated residual block a pose: the reference
+  kPerPose,   // one automatically differentiated residual block a pose, or reading: the reference
 };
 
 struct CalibrateOptions {

@@ -40,9 +40,10 @@ class MarkerCalibration {
  private:
   Estimate Fit(const Observations& observations, const MarkerObservations& markers) {
     const Estimate start = Calibrate(observations, initial_, by_poses_);
-    NonlinearOptions nonlinear = options_.nonlinear;
-    if (!start.converged) nonlinear.max_iterations = 0;  // there is nothing to refine
-    solution_ = SolveMarkers(markers, start.mounts, nonlinear);
+    MarkerSolverOptions options{
+        options_.nonlinear, options_.evaluation == Evaluation::kPerPose, options_.threads};
+    if (!start.converged) options.nonlinear.max_iterations = 0;  // there is nothing to refine
+    solution_ = SolveMarkers(markers, start.mounts, options);
 
     Estimate estimate;
     estimate.warnings = observations.warnings;

@@ -119,6 +119,10 @@ class MarkerJudgement {
     estimate_.covariance_unscaled = result.covariance;
     const double scale = solution_.sigma_estimated ? std::pow(estimate_.noise_scale, 2) : 1.0;
     estimate_.covariance = scale * result.covariance;
+    estimate_.intervals =
+        solution_.sigma_estimated
+            ? IntervalsOfScaledNoise(estimate_.covariance, estimate_.degrees_of_freedom)
+            : IntervalsOfKnownNoise(estimate_.covariance);
   }
 
   void SetIntervals() {

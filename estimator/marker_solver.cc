@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "estimator/marker_reference.h"
 #include "estimator/normal_matrix.h"
 
 namespace hexcal {
@@ -13,7 +14,10 @@ namespace {
 constexpr int kMaxRounds = 100;
 // A sigma that changes by less than this part no longer moves the mounts.
 constexpr double kSettled = 1e-9;
-// A change below this that no longer shrinks is rounding.
+// The readings' rounding moves sigma by so many roundings.
+constexpr double kRoundings = 64.0;
+// After many rounds, a change below this that no longer shrinks is rounding, too.
+constexpr int kManyRounds = 30;
 constexpr double kStalled = 1e-3;
 // The factor falls at least so fast with sigma, or the secant is not to be trusted.
 constexpr double kSmallestSlope = -0.02;
@@ -22,7 +26,7 @@ class Solver {
  public:
   Solver(const MarkerObservations& markers,
          const BaseAndTool& start,
-         const NonlinearOptions& options)
+         const MarkerSolverOptions& options)
       : markers_(markers), options_(options), smallest_(SmallestSigma(markers)) {
     result_.blocks = MarkerLayout(markers.data)
                          .Start(markers.data, start.world_from_base, start.platform_from_tool);
@@ -44,14 +48,39 @@ class Solver {
   }
 
  private:
+  MarkerBatch Batch() const { return {markers_.data, result_.sigma, options_.threads}; }
+
   Solution Solve() {
-    const MarkerBatch batch(markers_.data, result_.sigma);
-    return SolveStreamed(batch, options_, &result_.blocks);
+    return options_.by_reference ? SolveByReference()
+                                 : SolveStreamed(Batch(), options_.nonlinear, &result_.blocks);
+  }
+
+  Solution SolveByReference() {
+    Solution solution;
+    solution.iterations.push_back(Record());
+    if (options_.nonlinear.max_iterations > 0) {
+      MarkerReference reference =
+          SolveMarkerReference(markers_.data, result_.sigma, result_.blocks);
+      solution.converged = reference.converged;
+      solution.message = reference.message;
+      result_.blocks = std::move(reference.parameters);
+      solution.iterations.push_back(Record());
+    }
+    solution.mounts = MountsOf(result_.blocks);
+    return solution;
+  }
+
+  IterationRecord Record() const {
+    const NormalEquations e = Evaluate(Batch(), result_.blocks);
+    const double n = static_cast<double>(e.poses);
+    return {0.5 * e.squared_norm,
+            std::sqrt(e.position_squares / n),
+            std::sqrt(e.orientation_squares / n)};
   }
 
   // Never below rounding.
   double Factor() const {
-    const MarkerBatch batch(markers_.data, result_.sigma);
+    const MarkerBatch batch = Batch();
     const MarkerFit fit = FitOf(batch, result_.blocks, Evaluate(batch, result_.blocks));
     return std::max(RemlFactor(markers_, fit), smallest_ / result_.sigma.minCoeff());
   }
@@ -63,12 +92,14 @@ class Solver {
       Append(Solve());
       if (!result_.solution.converged) return;
       const double log_factor = std::log(Factor());
-      const double step = Step(log_factor, last_log_factor, last_step);
+      const double step = std::max(Step(log_factor, last_log_factor, last_step),
+                                   std::log(smallest_ / result_.sigma.minCoeff()));
       result_.sigma *= std::exp(step);
-      const bool is_at_floor = result_.sigma.minCoeff() <= (1.0 + kStalled) * smallest_;
+      const double sigma = result_.sigma.minCoeff();
+      const double settled = std::max(kSettled, kRoundings * smallest_ / sigma);
       const double change = std::abs(log_factor), last = std::abs(last_log_factor);
-      if (round > 0 && (change < kSettled || is_at_floor || (change < kStalled && change > last)))
-        return;
+      const bool is_stalled = round > kManyRounds && change < kStalled && change > last;
+      if (round > 0 && (change < settled || is_stalled)) return;
       last_log_factor = log_factor;
       last_step = step;
     }
@@ -93,7 +124,7 @@ class Solver {
   }
 
   const MarkerObservations& markers_;
-  const NonlinearOptions& options_;
+  const MarkerSolverOptions& options_;
   const double smallest_;
   MarkerSolution result_;
 };
@@ -124,7 +155,7 @@ double SmallestSigma(const MarkerObservations& markers) {
 
 MarkerSolution SolveMarkers(const MarkerObservations& markers,
                             const BaseAndTool& start,
-                            const NonlinearOptions& options) {
+                            const MarkerSolverOptions& options) {
   return Solver(markers, start, options).Run();
 }
 

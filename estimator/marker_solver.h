@@ -24,6 +24,14 @@ double RemlFactor(const MarkerObservations& markers, const MarkerFit& fit);
 // No sigma means anything below this: rounding of the readings, m.
 double SmallestSigma(const MarkerObservations& markers);
 
+struct MarkerSolverOptions {
+  NonlinearOptions nonlinear;
+  // By SolveMarkerReference in place of MarkerBatch: the same solution, of whose iterations the
+  // start and the end are recorded.
+  bool by_reference = false;
+  int threads = 1;  // the result does not depend on it
+};
+
 struct MarkerSolution {
   Solution solution;
   ParameterBlocks blocks;
@@ -39,6 +47,6 @@ struct MarkerSolution {
 // enough of them, else equal; its level by REML.
 MarkerSolution SolveMarkers(const MarkerObservations& markers,
                             const BaseAndTool& start,
-                            const NonlinearOptions& options);
+                            const MarkerSolverOptions& options);
 
 }  // namespace hexcal

@@ -61,6 +61,43 @@ TEST(CalibrateMarkers, RecoversTheTruthWithoutNoise) {
     }
 }
 
+// One residual block a reading, all nuisances as parameters: the same estimate.
+TEST(CalibrateMarkers, ByItsReferenceIsTheSame) {
+  auto rng = SeededByTest();
+  for (const MarkerScene& scene : Scenes())
+    for (const bool is_stated : {true, false}) {
+      Dataset dataset = DrawMarkers(MakeMarkerTruth(rng, scene), 1);
+      if (!is_stated) dataset.measurement->marker_sigma.reset();
+      const Observations observations = MakeObservations(dataset);
+      CalibrateOptions options;
+      options.evaluation = Evaluation::kPerPose;
+      const Estimate reference = CalibrateMarkers(
+          observations, MakeMarkerObservations(dataset, observations), {}, options);
+      const Estimate e = CalibrateByMarkers(dataset);
+      EXPECT_TRUE(reference.converged);
+      const Vector12d sigma = e.covariance.diagonal().cwiseSqrt();
+      const Vector12d apart = Difference(e.mounts, reference.mounts);
+      EXPECT_LT(apart.cwiseAbs().maxCoeff(), 1e-10);
+      EXPECT_LT(apart.cwiseQuotient(sigma).cwiseAbs().maxCoeff(), 1e-6);
+      EXPECT_TRUE(
+          testing::MatrixNear(*e.noise.marker, *reference.noise.marker, 1e-8 * sigma.maxCoeff()));
+      EXPECT_NEAR(e.chi_square / reference.chi_square, 1.0, 1e-8);
+    }
+}
+
+TEST(CalibrateMarkers, GivesIntervalsByTheNoisesDegreesOfFreedom) {
+  auto rng = SeededByTest();
+  Dataset dataset = DrawMarkers(MakeMarkerTruth(rng, Scene(false, false, 0.0)), 1);
+  const Estimate known = CalibrateByMarkers(dataset);
+  EXPECT_NEAR(known.intervals.half_width[4] / std::sqrt(known.covariance(4, 4)), 1.95996, 1e-4);
+  EXPECT_NEAR(known.intervals.ellipsoid, 21.02607, 1e-4);  // chi-square, 12
+  dataset.measurement->marker_sigma.reset();
+  const Estimate e = CalibrateByMarkers(dataset);
+  EXPECT_EQ(e.intervals.degrees_of_freedom[4], e.degrees_of_freedom);
+  EXPECT_GT(e.intervals.half_width[4] / std::sqrt(e.covariance(4, 4)), 1.965);
+  EXPECT_GT(e.intervals.ellipsoid, 21.1);
+}
+
 // Repeats: reported standard deviations, all 12 together, those of the base (which a static
 // tracker's common error moves), and chi-square.
 struct Repeats {
