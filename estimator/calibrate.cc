@@ -13,10 +13,11 @@
 #include "estimator/judge.h"
 #include "estimator/noise.h"
 #include "estimator/normal_matrix.h"
+#include "estimator/plausibility.h"
 #include "estimator/pose_fit.h"
 #include "estimator/rms.h"
 #include "estimator/start.h"
-#include "residuals/whitener.h"
+#include "estimator/weights.h"
 
 namespace hexcal {
 namespace {
@@ -30,21 +31,20 @@ constexpr double kRoundings = 64.0;
 constexpr double kStalled = 1e-3 / kSettled;
 // The iteration's update, m and rad, below which its residuals tell the noise.
 constexpr double kNear = 1e-4;
-// With more than this part of the poses' squared spread left over nothing is explained.
-constexpr double kNoFit = 0.5;
-// Misfit by which another start must be better to show that a solution is none.
-constexpr double kMuchBetter = 0.25;
 
 class Calibration {
  public:
   Calibration(const Observations& observations,
               const std::optional<BaseAndTool>& initial,
               const CalibrateOptions& options)
-      : observations_(observations), initial_(initial), options_(options) {
+      : observations_(observations),
+        few_(EvenSample(observations.items)),
+        initial_(initial),
+        options_(options) {
     weighting_.paper_error =
         IsLinearized() && options.linearized.error == LinearizedOptions::Error::kPaper;
     weighting_.levels_estimated = !observations.tool_noise_is_known && !options.noise;
-    weighting_.levels = options.noise.value_or(Spread(observations.items));
+    weighting_.levels = options.noise.value_or(Spread(few_));
     weighting_.loss = options.loss;
     weighting_.covariance = options.covariance;
     CHECK(!IsLinearized() || (!HasLoss() && options.covariance == CovarianceKind::kModel))
@@ -96,7 +96,7 @@ class Calibration {
   BaseAndTool FirstGuess() const {
     switch (ChosenStart()) {
       case Start::kClosedForm:
-        return FindStart(observations_.items);
+        return FindStart(few_);
       case Start::kShah:
         return SolveClosedForm(ClosedForm::kShah, observations_.items);
       case Start::kParkMartin:
@@ -157,17 +157,7 @@ class Calibration {
   }
 
   PoseWeights Weights() const {
-    const Pose3d& tool = estimate_.mounts.platform_from_tool;
-    const auto covariance = [&](const Observation& o) {
-      return ErrorCovariance(o, observations_, tool, weighting_.levels);
-    };
-    if (!observations_.tool_noise_is_known && !observations_.has_robot_noise)
-      return PoseWeights::Isotropic(weighting_.levels.position, weighting_.levels.orientation);
-    if (HasCommonCovariance(observations_))
-      return PoseWeights::Common(covariance(observations_.items[0]));
-    PoseWeights weights = PoseWeights::PerPose(observations_.items.size());
-    for (const Observation& o : observations_.items) weights.Add(covariance(o));
-    return weights;
+    return WeightsOf(observations_, estimate_.mounts.platform_from_tool, weighting_.levels);
   }
 
   // Weights follow the noise and (through the robot's noise) the tool; both follow the fit: in
@@ -225,12 +215,7 @@ class Calibration {
   }
 
   std::vector<Matrix6d> Whiteners() const {
-    std::vector<Matrix6d> whiteners;
-    whiteners.reserve(observations_.items.size());
-    for (const Observation& o : observations_.items)
-      whiteners.push_back(WhitenerOf(ErrorCovariance(
-          o, observations_, estimate_.mounts.platform_from_tool, weighting_.levels)));
-    return whiteners;
+    return WhitenersOf(observations_, estimate_.mounts.platform_from_tool, weighting_.levels);
   }
 
   // Where there is no solution, all that is left over is noise.
@@ -245,28 +230,11 @@ class Calibration {
 
   // What has converged may still be no solution.
   void RefuseBadFit() {
-    const auto& rows = observations_.items;
-    const Misfit misfit = MisfitOf(rows, estimate_.mounts);
-    if (misfit.position > kNoFit && misfit.orientation > kNoFit)
-      Refuse(
-          "no base and tool explain how the poses move: they hardly do, some are grossly wrong, or "
-          "units, rotations or the order of the rows are");
-    else if (ChosenStart() != Start::kClosedForm && misfit.Total() > RoundingMisfit() &&
-             MisfitOf(rows, FindStart(rows)).Total() < kMuchBetter * misfit.Total())
-      Refuse("it ended in a local minimum: --start=closed_form finds a better one");
-  }
-
-  // What rounding alone leaves: nothing is better than that.
-  double RoundingMisfit() const {
-    const NoiseLevels rounding = Rounding(observations_.items),
-                      spread = Spread(observations_.items);
-    return std::pow(kRoundings * rounding.position / spread.position, 2) +
-           std::pow(kRoundings * rounding.orientation / spread.orientation, 2);
-  }
-
-  void Refuse(const char* message) {
+    const std::string why =
+        WhyNoSolution(few_, estimate_.mounts, ChosenStart() != Start::kClosedForm);
+    if (why.empty()) return;
     estimate_.converged = false;
-    estimate_.message = message;
+    estimate_.message = why;
   }
 
   // The records of a later round begin at the end of the one before.
@@ -300,6 +268,7 @@ class Calibration {
   }
 
   const Observations& observations_;
+  const std::vector<Observation> few_;  // for what need not see all of many
   const std::optional<BaseAndTool>& initial_;
   const CalibrateOptions& options_;
   Evaluation evaluation_ = options_.evaluation;

@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "estimator/ceres_options.h"
 #include "estimator/polish.h"
 #include "estimator/rms.h"
 #include "residuals/pose_manifold.h"
@@ -62,24 +63,6 @@ bool IsFinite(const std::vector<Observation>& observations,
   return true;
 }
 
-ceres::Solver::Options SolverOptions(const NonlinearOptions& options) {
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_QR;
-  solver.max_num_iterations = options.max_iterations;
-  solver.function_tolerance = options.tolerance;
-  solver.parameter_tolerance = options.tolerance;
-  // The gradient has no scale of its own here: weights may be anything from 1 to 1e32.
-  solver.gradient_tolerance = 0.0;
-  // At a perfect fit rounding makes steps look invalid: let the trust region shrink to its end
-  // instead of giving up.
-  solver.max_num_consecutive_invalid_steps = 100;
-  // The order of sums, and with it every bit of the result, must not depend on the machine.
-  solver.num_threads = 1;
-  solver.update_state_every_iteration = true;
-  solver.logging_type = ceres::SILENT;
-  return solver;
-}
-
 }  // namespace
 
 Solution SolveNonlinear(const std::vector<Observation>& observations,
@@ -115,7 +98,7 @@ Solution SolveNonlinear(const std::vector<Observation>& observations,
         tool);
 
   Recorder recorder(observations, base, tool, options, &solution.iterations);
-  ceres::Solver::Options solver_options = SolverOptions(options);
+  ceres::Solver::Options solver_options = CeresOptions(options);
   solver_options.callbacks.push_back(&recorder);
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options, &problem, &summary);

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "estimator/normal_matrix.h"
-#include "estimator/start.h"
 #include "estimator/streamed_solver.h"
 #include "estimator/tiny.h"
 #include "residuals/pose_stream.h"

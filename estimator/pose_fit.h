@@ -5,6 +5,7 @@
 
 #include "estimator/estimate.h"
 #include "estimator/nonlinear.h"
+#include "estimator/start.h"
 #include "estimator/variances.h"
 #include "residuals/pose_batch.h"
 #include "residuals/robust_loss.h"
@@ -42,7 +43,6 @@ PoseFit FitPoses(const PoseBatch& batch,
                  const PoseFitOptions& options);
 
 constexpr std::size_t kSampleFrom = 8192;
-constexpr std::size_t kSampleSize = 1024;
 
 // (J' W J)^-1 of a fit, zero in the directions that the poses do not determine.
 Matrix12d CovarianceOf(const PoseFit& fit);

@@ -31,15 +31,6 @@ struct Best {
   }
 };
 
-// At most kSearchPoses of them, evenly taken.
-Rows Thinned(const Rows& rows) {
-  if (rows.size() <= kSearchPoses) return rows;
-  Rows few;
-  for (std::size_t k = 0; k < kSearchPoses; ++k)
-    few.push_back(rows[k * rows.size() / kSearchPoses]);
-  return few;
-}
-
 // The 24 rotations of a cube onto itself: no rotation is further than 63 degrees from one of them.
 std::vector<Eigen::Matrix3d> CubeRotations() {
   std::vector<Eigen::Matrix3d> rotations;
@@ -59,6 +50,14 @@ std::vector<Eigen::Matrix3d> CubeRotations() {
 
 }  // namespace
 
+std::vector<Observation> EvenSample(const Rows& rows, std::size_t at_most) {
+  if (rows.size() <= at_most) return rows;
+  Rows few;
+  few.reserve(at_most);
+  for (std::size_t k = 0; k < at_most; ++k) few.push_back(rows[k * rows.size() / at_most]);
+  return few;
+}
+
 Misfit MisfitOf(const Rows& rows, const BaseAndTool& mounts) {
   const NoiseLevels spread = Spread(rows);
   RmsError rms;
@@ -76,7 +75,7 @@ BaseAndTool FindStart(const Rows& rows) {
     if (best.misfit < kGoodMisfit) return best.mounts;
   }
 
-  const Rows few = Thinned(rows);
+  const Rows few = EvenSample(rows, kSearchPoses);
   const NoiseLevels spread = Spread(few);
   const PoseWeights weights = PoseWeights::Isotropic(spread.position, spread.orientation);
   PoseBatch batch;

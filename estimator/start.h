@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "estimator/observations.h"
@@ -15,6 +16,11 @@ struct Misfit {
   double Total() const { return position + orientation; }
 };
 Misfit MisfitOf(const std::vector<Observation>& observations, const BaseAndTool& mounts);
+
+// At most so many rows, evenly taken: enough for what need not see all of many.
+constexpr std::size_t kSampleSize = 1024;
+std::vector<Observation> EvenSample(const std::vector<Observation>& observations,
+                                    std::size_t at_most = kSampleSize);
 
 // Base and tool from nothing, near enough for the iterative solvers: the first closed form that
 // fits. Where none fits (rotations about one axis, by half turns or none at all leave more than one

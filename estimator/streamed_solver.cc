@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "estimator/ceres_options.h"
 #include "estimator/normal_matrix.h"
 #include "residuals/pose_manifold.h"
 #include "residuals/streamed_cost.h"
@@ -53,23 +54,6 @@ class Recorder : public ceres::IterationCallback {
   const NonlinearOptions& options_;
   std::vector<IterationRecord>* records_;
 };
-
-ceres::Solver::Options SolverOptions(const NonlinearOptions& options) {
-  ceres::Solver::Options solver;
-  solver.linear_solver_type = ceres::DENSE_QR;
-  solver.max_num_iterations = options.max_iterations;
-  solver.function_tolerance = options.tolerance;
-  solver.parameter_tolerance = options.tolerance;
-  // The gradient has no scale of its own here: weights may be anything from 1 to 1e32.
-  solver.gradient_tolerance = 0.0;
-  // At a perfect fit rounding makes steps look invalid: let the trust region shrink to its end
-  // instead of giving up.
-  solver.max_num_consecutive_invalid_steps = 100;
-  solver.num_threads = 1;
-  solver.update_state_every_iteration = true;
-  solver.logging_type = ceres::SILENT;
-  return solver;
-}
 
 // How many standard deviations a step is long, all parameters together.
 double LengthInSigmas(const NormalEquations& equations, const Eigen::VectorXd& step) {
@@ -161,7 +145,7 @@ Solution SolveStreamed(const StreamedResidual& residual,
   problem.AddResidualBlock(&cost, nullptr, pointers);
 
   Recorder recorder(cost, *blocks, options, &solution.iterations);
-  ceres::Solver::Options solver_options = SolverOptions(options);
+  ceres::Solver::Options solver_options = CeresOptions(options);
   solver_options.callbacks.push_back(&recorder);
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options, &problem, &summary);
