@@ -21,8 +21,8 @@ constexpr double kSettled = 1e-10;
 // Changes below this that no longer shrink are rounding.
 constexpr double kStalled = 1e-3;
 constexpr double kRoundings = 64.0;
-// Of the cost: from the solution of a sample, Gauss-Newton steps do the rest.
-constexpr double kNearTolerance = 1e-6;
+// Standard deviations, all 12 parameters together, by which a sample's solution is hardly off.
+constexpr double kFarInSampleSigmas = 10.0;
 
 // An even sample as plain rows, for what need not see all poses.
 std::vector<Observation> Sample(const PoseBatch& batch) {
@@ -81,12 +81,27 @@ class Fit {
     const PoseWeights own = given_ ? PoseWeights() : Weights();
     const PoseStream stream(batch_, given_ ? *given_ : own, options_.loss, options_.threads);
     ParameterBlocks blocks = BlocksOf(mounts);
-    NonlinearOptions nonlinear = options_.nonlinear;
-    if (is_near_) nonlinear.tolerance = std::max(nonlinear.tolerance, kNearTolerance);
-    fit_.solution = options_.method == PoseFitOptions::Method::kTiny
-                        ? SolveTiny(stream, nonlinear, &blocks, &fit_.equations)
-                        : SolveStreamed(stream, nonlinear, &blocks, &fit_.equations);
+    if (!is_near_ || !SolveFromNear(stream, &blocks))
+      fit_.solution = options_.method == PoseFitOptions::Method::kTiny
+                          ? SolveTiny(stream, options_.nonlinear, &blocks, &fit_.equations)
+                          : SolveStreamed(stream, options_.nonlinear, &blocks, &fit_.equations);
     if (fit_.solution.converged && !given_) Refine(stream, &blocks);
+  }
+
+  // From the solution of a sample, Gauss-Newton steps do the rest: false where the first one is
+  // longer than the sample's own error explains.
+  bool SolveFromNear(const PoseStream& stream, ParameterBlocks* blocks) {
+    fit_.equations = Evaluate(stream, *blocks);
+    const IterationRecord start = RecordOf(0.5 * fit_.equations.squared_norm, fit_.equations);
+    const Eigen::VectorXd step = GaussNewtonStep(fit_.equations);
+    const double length = std::sqrt(std::max(0.0, -step.dot(fit_.equations.gradient)));
+    const double share = static_cast<double>(batch_.size()) / kSampleSize;
+    if (!(length < kFarInSampleSigmas * std::sqrt(share))) return false;
+    *blocks = Polished(stream, *blocks, &fit_.equations);
+    fit_.solution.mounts = MountsOf(*blocks);
+    fit_.solution.converged = true;
+    fit_.solution.iterations = {start, RecordOf(0.5 * fit_.equations.squared_norm, fit_.equations)};
+    return true;
   }
 
   // Levels and mounts in turn from the parts of one pass, until neither moves: what the levels do

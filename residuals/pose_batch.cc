@@ -62,6 +62,11 @@ PoseWeights PoseWeights::Isotropic(double position_sigma, double orientation_sig
 }
 
 PoseWeights PoseWeights::Common(const Matrix6d& covariance) {
+  const double position = covariance(0, 0), orientation = covariance(3, 3);
+  Vector6d levels;
+  levels << position, position, position, orientation, orientation, orientation;
+  if (covariance == Matrix6d(levels.asDiagonal()))  // the pass has half the work
+    return Isotropic(std::sqrt(position), std::sqrt(orientation));
   PoseWeights weights;
   weights.kind_ = Kind::kCommon;
   SetInformation(covariance, 0, &weights.common_);

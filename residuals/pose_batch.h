@@ -49,6 +49,7 @@ class PoseWeights {
 
   // 1-sigma of a coordinate, m, and of an angle, rad.
   static PoseWeights Isotropic(double position_sigma, double orientation_sigma);
+  // kIsotropic where that is what the covariance is.
   static PoseWeights Common(const Matrix6d& covariance);
   static PoseWeights PerPose(std::size_t poses);
   // kPerPose: in the order of the batch.
