@@ -21,6 +21,8 @@ constexpr double kSettled = 1e-10;
 // Changes below this that no longer shrink are rounding.
 constexpr double kStalled = 1e-3;
 constexpr double kRoundings = 64.0;
+// Enough for a closed form from which the solver starts.
+constexpr std::size_t kStartPoses = 256;
 // Standard deviations, all 12 parameters together, by which a sample's solution is hardly off.
 constexpr double kFarInSampleSigmas = 10.0;
 
@@ -53,7 +55,7 @@ class Fit {
       const NoiseLevels spread = Spread(sample), rounding = Rounding(sample);
       variances_ = Squared(spread), floor_ = Squared(rounding);
     }
-    BaseAndTool mounts = start ? *start : FindStart(sample);
+    BaseAndTool mounts = start ? *start : FindStart(EvenSample(sample, kStartPoses));
     // A loss has a start that is better than what the sample would give without its levels.
     if (is_large && options_.loss.kind == LossKind::kNone) {
       const PoseFit coarse = FitPoses(Packed(sample), nullptr, mounts, options_);
