@@ -13,16 +13,11 @@ namespace {
 using testing::AnyMounts;
 using ::testing::HasSubstr;
 using testing::HexapodObservations;
+using testing::Isotropic;
 using testing::KnownNoise;
 using testing::SeededByTest;
 using testing::TrackerLikeCovariance;
 using testing::UnknownNoise;
-
-Matrix6d IsotropicCovariance() {
-  Vector6d sigma;
-  sigma << Eigen::Vector3d::Constant(4e-5), Eigen::Vector3d::Constant(3.4e-4);
-  return sigma.cwiseAbs2().asDiagonal();
-}
 
 Certificate CertificateOf(const Observations& observations) {
   const Estimate estimate = Calibrate(observations, {}, {});
@@ -33,10 +28,10 @@ TEST(Certificate, IsExactForOneNoiseOfPositionsAndOneOfOrientations) {
   auto rng = SeededByTest();
   for (int i = 0; i < 20; ++i) {
     auto rows = HexapodObservations(rng, AnyMounts(rng), 40);
-    testing::AddNoise(rng, IsotropicCovariance(), &rows);
+    testing::AddNoise(rng, Isotropic(4e-5, 3.4e-4), &rows);
     for (const bool known : {true, false}) {
       const Certificate c =
-          CertificateOf(known ? KnownNoise(rows, IsotropicCovariance()) : UnknownNoise(rows));
+          CertificateOf(known ? KnownNoise(rows, Isotropic(4e-5, 3.4e-4)) : UnknownNoise(rows));
       EXPECT_TRUE(c.certified && c.exact) << c.why;
       EXPECT_GE(c.gap, 0.0);
       EXPECT_LT(c.gap, 1e-6);
@@ -75,8 +70,8 @@ TEST(Certificate, IsNotGivenWhereTheDataLeaveADirectionOpen) {
     o.base_from_platform.rotation = Exp(Eigen::Vector3d(0, 0, testing::Uniform(rng, -1, 1)));
     o.world_from_tool = truth.world_from_base * o.base_from_platform * truth.platform_from_tool;
   }
-  testing::AddNoise(rng, IsotropicCovariance(), &rows);
-  const Certificate c = CertificateOf(KnownNoise(rows, IsotropicCovariance()));
+  testing::AddNoise(rng, Isotropic(4e-5, 3.4e-4), &rows);
+  const Certificate c = CertificateOf(KnownNoise(rows, Isotropic(4e-5, 3.4e-4)));
   EXPECT_FALSE(c.certified);
   EXPECT_THAT(c.why, HasSubstr("more than one best solution"));
   EXPECT_THAT(c.why, HasSubstr("more than one axis"));
@@ -88,8 +83,8 @@ TEST(Certificate, IsNotGivenToAWorseMinimum) {
   for (int i = 0; i < 60; ++i) {
     const BaseAndTool truth = AnyMounts(rng);
     auto rows = HexapodObservations(rng, truth, 20);
-    testing::AddNoise(rng, IsotropicCovariance(), &rows);
-    const Observations observations = KnownNoise(rows, IsotropicCovariance());
+    testing::AddNoise(rng, Isotropic(4e-5, 3.4e-4), &rows);
+    const Observations observations = KnownNoise(rows, Isotropic(4e-5, 3.4e-4));
     CalibrateOptions options;
     options.start = Start::kInitial;
     Estimate estimate = Calibrate(observations, AnyMounts(rng), options);
@@ -116,13 +111,13 @@ TEST(Certificate, IsOfThePosesThatHaveWeight) {
   auto rng = SeededByTest();
   const BaseAndTool truth = AnyMounts(rng);
   auto rows = HexapodObservations(rng, truth, 20);
-  testing::AddNoise(rng, IsotropicCovariance(), &rows);
-  const Observations good = KnownNoise(rows, IsotropicCovariance());
+  testing::AddNoise(rng, Isotropic(4e-5, 3.4e-4), &rows);
+  const Observations good = KnownNoise(rows, Isotropic(4e-5, 3.4e-4));
   Estimate estimate = Calibrate(good, {}, {});
   rows.push_back(rows.back());
   rows.back().world_from_tool = testing::RandomPose(rng, 1.0);
   estimate.poses.push_back({"bad", 1.0, Vector6d::Constant(0.5)});
-  const Observations all = KnownNoise(rows, IsotropicCovariance());
+  const Observations all = KnownNoise(rows, Isotropic(4e-5, 3.4e-4));
   EXPECT_FALSE(Certify(all, {}, estimate).certified);  // the bad pose pulls the optimum away
   estimate.poses.back().weight = 0.0;
   const Certificate without = Certify(all, {}, estimate);

@@ -14,17 +14,12 @@ namespace {
 using testing::AnyMounts;
 using testing::Difference;
 using testing::HexapodObservations;
+using testing::Isotropic;
 using testing::SeededByTest;
 
 // What is left over in the paper's Table V, a coordinate.
 constexpr double kPosition = 7.08e-5 / 1.732;     // m
 constexpr double kOrientation = 5.83e-4 / 1.732;  // rad
-
-Matrix6d Isotropic(double position, double orientation) {
-  Vector6d sigma;
-  sigma << Eigen::Vector3d::Constant(position), Eigen::Vector3d::Constant(orientation);
-  return sigma.cwiseAbs2().asDiagonal();
-}
 
 template <typename Rng>
 std::vector<Observation> ArmObservations(Rng& rng, const BaseAndTool& truth, int poses) {

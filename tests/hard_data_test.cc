@@ -14,18 +14,12 @@ namespace {
 using testing::AnyMounts;
 using testing::Difference;
 using testing::HexapodObservations;
+using testing::Isotropic;
 using testing::KnownNoise;
 using testing::SeededByTest;
 using testing::UnknownNoise;
 
 using Rows = std::vector<Observation>;
-
-Matrix6d Isotropic(double position, double orientation) {
-  Vector6d variance;
-  variance << Eigen::Vector3d::Constant(position * position),
-      Eigen::Vector3d::Constant(orientation * orientation);
-  return variance.asDiagonal();
-}
 
 // Of the unit quaternions w, x, y, z.
 Eigen::Quaterniond HalfTurn(int k) {

@@ -12,14 +12,8 @@ namespace {
 
 using testing::AnyMounts;
 using testing::HexapodObservations;
+using testing::Isotropic;
 using testing::SeededByTest;
-
-Matrix6d Isotropic(double position, double orientation) {
-  Vector6d variance;
-  variance << Eigen::Vector3d::Constant(position * position),
-      Eigen::Vector3d::Constant(orientation * orientation);
-  return variance.asDiagonal();
-}
 
 // Twice the negative restricted log-likelihood of the linearised fit, straight from its definition
 // with dense matrices.

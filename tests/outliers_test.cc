@@ -25,6 +25,7 @@ using testing::AnyMounts;
 using testing::Difference;
 using testing::DrawIndices;
 using testing::HexapodObservations;
+using testing::Isotropic;
 using testing::KnownNoise;
 using testing::SeededByTest;
 using testing::Spoil;
@@ -33,17 +34,10 @@ using testing::UnknownNoise;
 
 constexpr NoiseLevels kNoise = {1e-4, 2e-4};
 
-Matrix6d NoiseCovariance() {
-  Vector6d variances;
-  variances << Eigen::Vector3d::Constant(kNoise.position * kNoise.position),
-      Eigen::Vector3d::Constant(kNoise.orientation * kNoise.orientation);
-  return variances.asDiagonal();
-}
-
 template <typename Rng>
 std::vector<Observation> NoisyRows(Rng& rng, const BaseAndTool& truth, int poses) {
   std::vector<Observation> rows = HexapodObservations(rng, truth, poses);
-  testing::AddNoise(rng, NoiseCovariance(), &rows);
+  testing::AddNoise(rng, Isotropic(kNoise), &rows);
   return rows;
 }
 
@@ -99,9 +93,9 @@ TEST(DeletionError, NothingWhereThePoseAloneDeterminesADirection) {
   auto rng = SeededByTest();
   const BaseAndTool truth = AnyMounts(rng);
   const std::vector<Observation> rows = HexapodObservations(rng, truth, 2);
-  const Fitted fitted = FitTo(rows, truth, NoiseCovariance());
+  const Fitted fitted = FitTo(rows, truth, Isotropic(kNoise));
   EXPECT_FALSE(ErrorAgainstOthers(
-      Linearise(rows[0], fitted.mounts), NoiseCovariance(), fitted.covariance, true));
+      Linearise(rows[0], fitted.mounts), Isotropic(kNoise), fitted.covariance, true));
 }
 
 // Of the draws without outliers a share alpha lists some; 4 standard deviations of a count.
@@ -112,7 +106,7 @@ void ExpectFalseAlarms(int poses, bool noise_is_stated, std::mt19937_64 rng) {
   for (int k = 0; k < kDraws; ++k) {
     const std::vector<Observation> rows = NoisyRows(rng, AnyMounts(rng), poses);
     alarms +=
-        !Found(noise_is_stated ? KnownNoise(rows, NoiseCovariance()) : UnknownNoise(rows), kAlpha)
+        !Found(noise_is_stated ? KnownNoise(rows, Isotropic(kNoise)) : UnknownNoise(rows), kAlpha)
              .empty();
   }
   EXPECT_NEAR(alarms, kAlpha * kDraws, 4.0 * std::sqrt(kAlpha * (1.0 - kAlpha) * kDraws));
@@ -132,7 +126,7 @@ TEST(Outliers, FindOneOfEightSigmaAmongTwenty) {
       std::vector<Observation> rows = NoisyRows(rng, AnyMounts(rng), 20);
       Spoil(rng, k % 2 == 0 ? Spoilt::kPosition : Spoilt::kOrientation, 8.0, kNoise, &rows[5]);
       const auto search = FindOutliers(
-          noise_is_stated ? KnownNoise(rows, NoiseCovariance()) : UnknownNoise(rows), {}, {});
+          noise_is_stated ? KnownNoise(rows, Isotropic(kNoise)) : UnknownNoise(rows), {}, {});
       for (const Outlier& outlier : search.outliers) {
         if (outlier.index != 5) continue;
         ++found;
@@ -154,7 +148,7 @@ TEST(Outliers, SayHowFarAlongWhichAxis) {
   move[1] = 40e-3;
   move[5] = 0.05;
   rows[7].world_from_tool = Plus(rows[7].world_from_tool, move);
-  const auto outliers = FindOutliers(KnownNoise(rows, NoiseCovariance()), {}, {}).outliers;
+  const auto outliers = FindOutliers(KnownNoise(rows, Isotropic(kNoise)), {}, {}).outliers;
   ASSERT_EQ(outliers.size(), 1u);
   EXPECT_NE(outliers[0].reason.find("position 3"), std::string::npos) << outliers[0].reason;
   EXPECT_NE(outliers[0].reason.find("mm), most along y of the tool; orientation 2"),
@@ -177,7 +171,7 @@ TEST(Outliers, FindThoseThatAgreeWithEachOther) {
         30.0 * kNoise.orientation * testing::Normal(rng, 3).normalized();
     for (const std::size_t i : bad) rows[i].world_from_tool = Plus(rows[i].world_from_tool, move);
     EXPECT_EQ(Found(UnknownNoise(rows), 1e-4), bad);
-    EXPECT_EQ(Found(KnownNoise(rows, NoiseCovariance()), 1e-4), bad);
+    EXPECT_EQ(Found(KnownNoise(rows, Isotropic(kNoise)), 1e-4), bad);
   }
 }
 
@@ -217,16 +211,16 @@ TEST(Outliers, NotSoughtAmongFewerThanSix) {
   auto rng = SeededByTest();
   std::vector<Observation> rows = NoisyRows(rng, AnyMounts(rng), 5);
   rows[1].world_from_tool.translation.x() += 1.0;
-  EXPECT_TRUE(Found(KnownNoise(rows, NoiseCovariance())).empty());
+  EXPECT_TRUE(Found(KnownNoise(rows, Isotropic(kNoise))).empty());
 }
 
 // Five times too small, which would make every pose an outlier.
 TEST(Outliers, StatedNoiseThatAllDisproveIsScaled) {
   auto rng = SeededByTest();
   std::vector<Observation> rows = NoisyRows(rng, AnyMounts(rng), 40);
-  EXPECT_TRUE(Found(KnownNoise(rows, NoiseCovariance() / 25.0)).empty());
+  EXPECT_TRUE(Found(KnownNoise(rows, Isotropic(kNoise) / 25.0)).empty());
   Spoil(rng, Spoilt::kBoth, 30.0, kNoise, &rows[11]);
-  EXPECT_EQ(Found(KnownNoise(rows, NoiseCovariance() / 25.0)), std::vector<std::size_t>{11});
+  EXPECT_EQ(Found(KnownNoise(rows, Isotropic(kNoise) / 25.0)), std::vector<std::size_t>{11});
 }
 
 TEST(Outliers, DoNotDependOnTheOrderOfTheRows) {
@@ -255,7 +249,7 @@ TEST(Outliers, ContradictTheOthersToTheEnd) {
     for (Observation& o : rows) {
       std::vector<Observation> one = {o};
       const double factor = std::abs(std::student_t_distribution<double>(1.5)(rng));
-      testing::AddNoise(rng, factor * factor * NoiseCovariance(), &one);
+      testing::AddNoise(rng, factor * factor * Isotropic(kNoise), &one);
       o = one[0];
     }
     testing::SpoilGrossly(rng, DrawIndices(rng, 5, 14), kNoise, &rows);
@@ -275,7 +269,7 @@ TEST(SubsetFit, LevelsOfTheNearestAreThoseOfAll) {
     std::vector<std::pair<double, std::size_t>> distances;
     for (std::size_t i = 0; i < 100; ++i)
       distances.emplace_back(
-          (WhitenerOf(NoiseCovariance()) *
+          (WhitenerOf(Isotropic(kNoise)) *
            PoseError(truth, clean.items[i].base_from_platform, clean.items[i].world_from_tool))
               .norm(),
           i);
@@ -297,11 +291,11 @@ TEST(Outliers, OfDataWithRobotNoise) {
   const BaseAndTool truth = AnyMounts(rng);
   std::vector<Observation> rows = HexapodObservations(rng, truth, 30);
   for (Observation& o : rows) {
-    o.robot_covariance = NoiseCovariance();
+    o.robot_covariance = Isotropic(kNoise);
     const Matrix6d l = o.robot_covariance.llt().matrixL();
     o.base_from_platform = Plus(o.base_from_platform, Vector6d(l * testing::Normal(rng, 6)));
   }
-  testing::AddNoise(rng, NoiseCovariance(), &rows);
+  testing::AddNoise(rng, Isotropic(kNoise), &rows);
   Spoil(rng, Spoilt::kBoth, 60.0, kNoise, &rows[2]);
   Observations observations = UnknownNoise(rows);
   observations.has_robot_noise = true;

@@ -15,17 +15,11 @@ namespace {
 
 using testing::AnyMounts;
 using testing::HexapodObservations;
+using testing::Isotropic;
 using testing::PoseNear;
 using testing::SeededByTest;
 
 constexpr NoiseLevels kNoise = {1e-4, 2e-4};
-
-Matrix6d Isotropic(const NoiseLevels& levels) {
-  Vector6d variances;
-  variances << Eigen::Vector3d::Constant(levels.position * levels.position),
-      Eigen::Vector3d::Constant(levels.orientation * levels.orientation);
-  return variances.asDiagonal();
-}
 
 TEST(RobustStart, IsExactWhereMoreThanHalfOfThePosesAre) {
   auto rng = SeededByTest();

@@ -18,17 +18,11 @@ namespace {
 using testing::AnyMounts;
 using testing::Difference;
 using testing::HexapodObservations;
+using testing::Isotropic;
 using testing::KnownNoise;
 using testing::SeededByTest;
 
 constexpr NoiseLevels kNoise = {1e-4, 2e-4};
-
-Matrix6d NoiseCovariance() {
-  Vector6d variances;
-  variances << Eigen::Vector3d::Constant(kNoise.position * kNoise.position),
-      Eigen::Vector3d::Constant(kNoise.orientation * kNoise.orientation);
-  return variances.asDiagonal();
-}
 
 // Weighted fit under a loss from near it, weights taken in turn with the fit.
 BaseAndTool Fit(const std::vector<Observation>& rows,
@@ -70,12 +64,12 @@ TEST(Sandwich, DoesNotCareHowLargeTheNoiseIsSaidToBe) {
   auto rng = SeededByTest();
   const BaseAndTool truth = AnyMounts(rng);
   std::vector<Observation> rows = HexapodObservations(rng, truth, 20);
-  testing::AddNoise(rng, NoiseCovariance(), &rows);
-  const BaseAndTool fit = Fit(rows, NoiseCovariance(), {}, truth);
+  testing::AddNoise(rng, Isotropic(kNoise), &rows);
+  const BaseAndTool fit = Fit(rows, Isotropic(kNoise), {}, truth);
   const Matrix12d once =
-      SandwichCovariance(KnownNoise(rows, NoiseCovariance()), fit, {}, RobustLoss{});
+      SandwichCovariance(KnownNoise(rows, Isotropic(kNoise)), fit, {}, RobustLoss{});
   const Matrix12d seven =
-      SandwichCovariance(KnownNoise(rows, 49.0 * NoiseCovariance()), fit, {}, RobustLoss{});
+      SandwichCovariance(KnownNoise(rows, 49.0 * Isotropic(kNoise)), fit, {}, RobustLoss{});
   EXPECT_TRUE(testing::MatrixNear(once / once.norm(), seven / once.norm(), 1e-10));
   // a level that is not known is taken from levels
   const Matrix12d by_levels =
@@ -88,14 +82,14 @@ TEST(Sandwich, IsUnbiasedWhereTheModelHolds) {
   auto rng = SeededByTest();
   const BaseAndTool truth = AnyMounts(rng);
   const std::vector<Observation> exact = HexapodObservations(rng, truth, 15);
-  const Matrix12d model = ModelCovariance(exact, NoiseCovariance(), {}, truth);
+  const Matrix12d model = ModelCovariance(exact, Isotropic(kNoise), {}, truth);
   Vector12d ratio = Vector12d::Zero();
   constexpr int kDraws = 400;
   for (int k = 0; k < kDraws; ++k) {
     std::vector<Observation> rows = exact;
-    testing::AddNoise(rng, NoiseCovariance(), &rows);
-    const Matrix12d sandwich = SandwichCovariance(KnownNoise(rows, NoiseCovariance()),
-                                                  Fit(rows, NoiseCovariance(), {}, truth),
+    testing::AddNoise(rng, Isotropic(kNoise), &rows);
+    const Matrix12d sandwich = SandwichCovariance(KnownNoise(rows, Isotropic(kNoise)),
+                                                  Fit(rows, Isotropic(kNoise), {}, truth),
                                                   {},
                                                   RobustLoss{});
     ratio += sandwich.diagonal().cwiseQuotient(model.diagonal()) / kDraws;
@@ -108,7 +102,7 @@ struct Coverage {
   double sandwich = 0.0, model = 0.0;
 };
 
-// noise: of pose i, by which its errors are drawn; the fit believes NoiseCovariance() of all.
+// noise: of pose i, by which its errors are drawn; the fit believes Isotropic(kNoise) of all.
 template <typename Rng, typename NoiseFactor>
 Coverage CoverageOf(Rng& rng, const RobustLoss& loss, const NoiseFactor& factor) {
   constexpr int kDraws = 250;
@@ -120,14 +114,14 @@ Coverage CoverageOf(Rng& rng, const RobustLoss& loss, const NoiseFactor& factor)
     std::vector<Observation> rows;
     for (std::size_t i = 0; i < exact.size(); ++i) {
       std::vector<Observation> one = {exact[i]};
-      testing::AddNoise(rng, std::pow(factor(i, exact[i]), 2) * NoiseCovariance(), &one);
+      testing::AddNoise(rng, std::pow(factor(i, exact[i]), 2) * Isotropic(kNoise), &one);
       rows.push_back(one[0]);
     }
-    const BaseAndTool fit = Fit(rows, NoiseCovariance(), loss, truth);
-    const Observations observations = KnownNoise(rows, NoiseCovariance());
+    const BaseAndTool fit = Fit(rows, Isotropic(kNoise), loss, truth);
+    const Observations observations = KnownNoise(rows, Isotropic(kNoise));
     const Matrix12d sandwich = SandwichCovariance(observations, fit, {}, loss);
     const Matrix12d model = LossCovarianceFactor(observations, fit, {}, loss) *
-                            ModelCovariance(rows, NoiseCovariance(), loss, fit);
+                            ModelCovariance(rows, Isotropic(kNoise), loss, fit);
     const Vector12d error = Difference(fit, truth).cwiseAbs();
     const auto covered = [&](const Matrix12d& covariance) {
       return (error.array() < kSigmas * covariance.diagonal().array().sqrt()).count() /
@@ -167,14 +161,14 @@ TEST(Sandwich, WithoutALossTheFactorIsChiSquareOverDegreesOfFreedom) {
   auto rng = SeededByTest();
   const BaseAndTool truth = AnyMounts(rng);
   std::vector<Observation> rows = HexapodObservations(rng, truth, 10);
-  testing::AddNoise(rng, NoiseCovariance(), &rows);
-  const BaseAndTool fit = Fit(rows, NoiseCovariance(), {}, truth);
+  testing::AddNoise(rng, Isotropic(kNoise), &rows);
+  const BaseAndTool fit = Fit(rows, Isotropic(kNoise), {}, truth);
   double chi_square = 0.0;
   for (const Observation& o : rows)
     chi_square +=
-        (WhitenerOf(NoiseCovariance()) * PoseError(fit, o.base_from_platform, o.world_from_tool))
+        (WhitenerOf(Isotropic(kNoise)) * PoseError(fit, o.base_from_platform, o.world_from_tool))
             .squaredNorm();
-  EXPECT_NEAR(LossCovarianceFactor(KnownNoise(rows, NoiseCovariance()), fit, {}, RobustLoss{}),
+  EXPECT_NEAR(LossCovarianceFactor(KnownNoise(rows, Isotropic(kNoise)), fit, {}, RobustLoss{}),
               chi_square / (60.0 - 12.0),
               1e-12);
 }

@@ -44,6 +44,12 @@ Matrix6d TrackerLikeCovariance() {
   return sigma.asDiagonal() * correlation * sigma.asDiagonal();
 }
 
+Matrix6d Isotropic(double position, double orientation) {
+  Vector6d sigma;
+  sigma << Eigen::Vector3d::Constant(position), Eigen::Vector3d::Constant(orientation);
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
 Observations KnownNoise(std::vector<Observation> rows, const Matrix6d& covariance) {
   for (Observation& o : rows) o.tool_covariance = covariance;
   Observations observations;

@@ -37,6 +37,12 @@ BaseAndTool AnyMounts(Rng& rng) {
 // A covariance of the size of an optical tracker's, unequal and far from diagonal: m^2, rad^2.
 Matrix6d TrackerLikeCovariance();
 
+// The same 1-sigma for each coordinate, m, and for each angle, rad.
+Matrix6d Isotropic(double position, double orientation);
+inline Matrix6d Isotropic(const NoiseLevels& levels) {
+  return Isotropic(levels.position, levels.orientation);
+}
+
 Observations KnownNoise(std::vector<Observation> rows, const Matrix6d& covariance);
 Observations UnknownNoise(std::vector<Observation> rows);
 
