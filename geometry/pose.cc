@@ -23,4 +23,18 @@ Eigen::Matrix3d LeftJacobianInverse(const Eigen::Vector3d& v) {
   return Eigen::Matrix3d::Identity() - 0.5 * skew + factor * skew * skew;
 }
 
+Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& v) {
+  const double squared = v.squaredNorm();
+  const double angle = std::sqrt(squared);
+  // (1 - cos a) / a^2 and (a - sin a) / a^3; their series where the quotients lose digits.
+  const bool small = angle < 1e-2;
+  const double half_sine = std::sin(0.5 * angle);
+  const double first =
+      small ? 0.5 - squared / 24 + squared * squared / 720 : 2.0 * half_sine * half_sine / squared;
+  const double second = small ? 1.0 / 6 - squared / 120 + squared * squared / 5040
+                              : (angle - std::sin(angle)) / (angle * squared);
+  const Eigen::Matrix3d skew = Skew(v);
+  return Eigen::Matrix3d::Identity() - first * skew + second * skew * skew;
+}
+
 }  // namespace hexcal

@@ -138,4 +138,8 @@ Matrix6d InverseAdjoint(const Pose3d& b_from_c);
 //   Log(Exp(d) Exp(v)) = v + LeftJacobianInverse(v) d + O(d^2).
 Eigen::Matrix3d LeftJacobianInverse(const Eigen::Vector3d& v);
 
+// Right Jacobian of Exp at the rotation vector v:
+//   Exp(v + d) = Exp(v) Exp(RightJacobian(v) d + O(d^2)).
+Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& v);
+
 }  // namespace hexcal

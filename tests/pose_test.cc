@@ -128,6 +128,19 @@ TEST(Pose, InverseAdjointIsTheLeftHalfOfThePapersEquation20) {
   EXPECT_TRUE(MatrixNear(InverseAdjoint(u), expected, 1e-15));
 }
 
+TEST(Pose, RightJacobianIsTheDerivativeOfExp) {
+  std::mt19937_64 rng = SeededByTest();
+  for (const double angle : {0.0, 1e-7, 0.99e-2, 1.01e-2, 0.5, 3.1}) {
+    const Eigen::Vector3d v = angle * testing::Normal(rng, 3).normalized();
+    const Eigen::MatrixXd numeric = NumericJacobian(
+        [&](const Eigen::VectorXd& d) -> Eigen::VectorXd {
+          return Log(Eigen::Quaterniond(Exp(v).conjugate() * Exp(Eigen::Vector3d(v + d))));
+        },
+        3);
+    EXPECT_TRUE(JacobianNear(RightJacobian(v), numeric, 1e-8)) << angle;
+  }
+}
+
 TEST(Pose, LeftJacobianInverseIsTheDerivativeOfLog) {
   for (const Eigen::Vector3d& v : RotationVectors()) {
     if (v.norm() > 3.05) continue;  // Log jumps at pi
