@@ -19,9 +19,22 @@ struct ParameterKind {
   std::string_view name;
   std::string_view unit;
   int size = 1;
-  double scale = 0.0;      // 1-sigma that is physically plausible before the data are seen
+  double scale = 0.0;      // 1-sigma that is physically plausible before the data are seen; 0:
+                           // nothing is known
   bool is_search = false;  // the effect is not linear in it, so it must be searched for (a period,
                            // a time of a step, a time constant)
+  double rotation_scale =
+      0.0;                     // of a twist (size 6): of its last three numbers, scale of the first
+  bool acts_alone = true;      // false: nothing where all others are zero (a phase, the mass of the
+                               // platform), so no score can tell it
+  bool is_per_marker = false;  // `size` numbers for each marker in the index, after all others
+};
+
+// A number, or several, that an effect refers to.
+struct ReferenceKind {
+  std::string_view name;
+  std::string_view unit;
+  int size = 1;
 };
 
 // Numbers that an effect's function refers to and that are not estimated: origin and span of the
@@ -32,17 +45,24 @@ using EffectReference = std::map<std::string, std::vector<double>>;
 // those of legs, joints or markers not in index are zero.
 struct Effect {
   std::string name;  // of the table of kinds
-  std::vector<int>
-      index;  // legs, joints or markers that carry it, from 1; markers: base body first
+  // Legs, joints or markers that carry it, from 1; markers: base body first. An effect of the legs
+  // with one number for all acts on these legs, on all where the index is empty.
+  std::vector<int> index;
   Eigen::VectorXd parameters;
   Eigen::VectorXd standard_deviation;  // NaN where not estimated; may be empty
   EffectReference reference;
   std::map<std::string, std::string> found;  // faults of the data: what was found, in words
 };
 
+// What an effect's function sees beside its parameters.
+struct EffectInput {
+  const Visit& visit;
+  const std::vector<int>& index;
+  const EffectReference& reference;
+};
+
 template <typename T>
-using EffectFunction = void (*)(const Visit& visit,
-                                const EffectReference& reference,
+using EffectFunction = void (*)(const EffectInput& input,
                                 const T* parameters,
                                 Corrections<T>* corrections);
 
@@ -57,11 +77,20 @@ struct EffectKind {
   // Null for faults of the data.
   EffectFunction<double> apply = nullptr;
   EffectFunction<Dual> apply_dual = nullptr;
+  std::vector<ReferenceKind> references = {};  // that apply asks for
 
-  int size() const;                                // of all parameters
+  int size() const;  // of all parameters, with one marker
+  int SizeFor(const std::vector<int>& index) const;
   int OffsetOf(std::string_view parameter) const;  // of its first number
+  // Of one number of an effect's parameters.
+  const ParameterKind& ParameterOf(int number) const;
+  double ScaleOf(int number) const;
+  std::string_view UnitOf(int number) const;
   bool IsFault() const { return apply == nullptr; }
 };
+
+// What was found but has no name: a correction by description, not by a function. In no table.
+inline constexpr std::string_view kUnknownEffect = "unknown";
 
 // All kinds, in the order of docs/effects.md.
 const std::vector<EffectKind>& EffectKinds();
@@ -71,12 +100,14 @@ const EffectKind* FindEffectKind(std::string_view name);
 // What the kind needs and the dataset lacks, in words ("a temperature column"), or empty.
 std::string MissingFor(const EffectKind& kind, const Drivers& drivers);
 
-// The references of an effect that is fitted to these visits.
+// The references of an effect that is fitted to these visits: with them it says the same of any
+// other rows.
 EffectReference ReferenceFor(const EffectKind& kind,
                              const std::vector<Visit>& visits,
                              const Dataset& dataset);
 
-// The sum over effects (faults of the data add nothing).
+// The sum over effects (faults of the data and the unknown add nothing). Other names, or another
+// number of parameters than the kind's: CHECK.
 Corrections<double> CorrectionsOf(const std::vector<Effect>& effects, const Visit& visit);
 // d(corrections) / d(one parameter), exactly, at the effect's parameters.
 Corrections<double> CorrectionsBy(const Effect& effect, int parameter, const Visit& visit);
