@@ -10,9 +10,6 @@
 namespace hexcal {
 namespace {
 
-// Below this number of poses Ceres's TinySolver is the quicker way to the same solution.
-constexpr std::size_t kFewPoses = 1000;
-
 Calibration Calibrated(std::shared_ptr<const Observations> own, const Observations& observations) {
   return [own, &observations] {
     const Estimate estimate = Calibrate(observations, {}, {});
@@ -41,7 +38,7 @@ Calibration Packed(const Observations& observations, PoseWeights::Kind kind) {
     for (const Observation& o : observations.items) weights->Add(o.tool_covariance);
   return [batch, weights] {
     PoseFitOptions options;
-    if (batch->size() < kFewPoses) options.method = PoseFitOptions::Method::kTiny;
+    options.method = PoseFitOptions::Method::kMoments;
     const PoseFit fit = FitPoses(*batch, weights.get(), std::nullopt, options);
     CHECK(fit.solution.converged) << fit.solution.message;
     CHECK(CovarianceOf(fit).allFinite());

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "estimator/moment_fit.h"
 #include "estimator/normal_matrix.h"
 #include "estimator/streamed_solver.h"
 #include "estimator/tiny.h"
@@ -153,6 +154,11 @@ PoseFit FitPoses(const PoseBatch& batch,
                  const PoseWeights* weights,
                  const std::optional<BaseAndTool>& start,
                  const PoseFitOptions& options) {
+  const bool by_moments = options.method == PoseFitOptions::Method::kMoments && weights && !start &&
+                          options.loss.kind == LossKind::kNone;
+  if (by_moments)
+    if (std::optional<MomentFit> fit = FitByMoments(batch, *weights, options.threads))
+      return {std::move(fit->solution), std::move(fit->equations), std::nullopt};
   return Fit(batch, weights, options).Run(start);
 }
 

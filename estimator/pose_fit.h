@@ -17,6 +17,7 @@ struct PoseFitOptions {
   enum class Method {
     kTrustRegion,  // Ceres's solver, with its records
     kTiny,         // Ceres's TinySolver, for small problems by the thousand
+    kMoments,      // FitByMoments where it applies, in the fewest passes; else the trust region
   };
   Method method = Method::kTrustRegion;
   NonlinearOptions nonlinear;

@@ -66,6 +66,14 @@ IsotropicSums PoseStream::PartsAt(const BaseAndTool& mounts) const {
   });
 }
 
+PoseMoments PoseStream::Moments() const {
+  Pose3d base_from_platform, world_from_tool;
+  batch_.Get(0, &base_from_platform, &world_from_tool);
+  return SumChunks<PoseMoments>({}, [&](const PassInput& input) {
+    return PassMoments(input, world_from_tool.translation, base_from_platform.translation);
+  });
+}
+
 NormalEquations PoseStream::At(const BaseAndTool& mounts) const {
   if (weights_.kind() == PoseWeights::Kind::kIsotropic)
     return Weighted(PartsAt(mounts), weights_.position(), weights_.orientation(), batch_.size());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "residuals/pose_batch.h"
+#include "residuals/pose_moments.h"
 #include "residuals/pose_pass.h"
 #include "residuals/robust_loss.h"
 #include "residuals/streamed_residual.h"
@@ -27,6 +28,9 @@ class PoseStream final : public StreamedResidual {
 
   // The two parts of isotropic weights apart.
   IsotropicSums PartsAt(const BaseAndTool& mounts) const;
+
+  // Of the poses alone, without weights or loss.
+  PoseMoments Moments() const;
 
  private:
   template <typename Sums>
