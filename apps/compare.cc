@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <memory>
 #include <optional>
 
 #include "apps/calibrate_options.h"
@@ -14,8 +13,8 @@
 #include "apps/in_order.h"
 #include "apps/message.h"
 #include "apps/output_folder.h"
-#include "apps/progress.h"
 #include "apps/record_of.h"
+#include "apps/stage_bars.h"
 #include "config/input_error.h"
 #include "report/compare_json.h"
 #include "report/compare_table.h"
@@ -45,23 +44,6 @@ std::optional<BaseAndTool> InitialOf(const Dataset& dataset, const CalibrateOpti
   return std::nullopt;
 }
 
-// One bar for each of the things that are done.
-class Bars {
- public:
-  void Update(std::string_view label, long done, long of) {
-    if (label != label_) {
-      bar_.reset();
-      label_ = label;
-      bar_ = std::make_unique<Progress>(std::string(label), FLAGS_quiet);
-    }
-    bar_->Update(done, of);
-  }
-
- private:
-  std::string_view label_;
-  std::unique_ptr<Progress> bar_;
-};
-
 Comparison CompareWithBars(const Dataset& dataset, CompareOptions options) {
   const std::optional<BaseAndTool> initial = InitialOf(dataset, options.calibrate);
   const Observations observations = MakeObservations(dataset);
@@ -69,7 +51,7 @@ Comparison CompareWithBars(const Dataset& dataset, CompareOptions options) {
     options.markers = [&dataset](const Observations& some) {
       return MakeMarkerObservations(dataset, some);
     };
-  Bars bars;
+  StageBars bars(FLAGS_quiet);
   options.progress = [&bars](std::string_view label, long done, long of) {
     bars.Update(label, done, of);
   };

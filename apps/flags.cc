@@ -71,6 +71,12 @@ DEFINE_int64(seed, 1, "The same seed draws the same noise.");
 DEFINE_int32(folds,
              5,
              "Into so many parts the poses are cut to see how well the others predict each.");
+DEFINE_double(alpha, 0.01, "The chance that an effect is named where there is none.");
+DEFINE_int32(
+    bootstraps,
+    999,
+    "How often noise alone is drawn and searched in the same way, to know what chance finds. More "
+    "than one over --alpha.");
 DEFINE_int32(draws,
              10000,
              "How often the measurement is repeated to check the covariance; up to ten times as "
@@ -91,6 +97,7 @@ constexpr std::string_view kMethod = "Method";
 constexpr std::string_view kNoise = "Noise";
 constexpr std::string_view kLinearized = "The linearized solver";
 constexpr std::string_view kComparison = "Comparison";
+constexpr std::string_view kDiscovery = "Discovery";
 constexpr std::string_view kRunning = "Running";
 
 std::vector<FlagSpec> MakeSpecs() {
@@ -132,6 +139,8 @@ std::vector<FlagSpec> MakeSpecs() {
       {"folds", kComparison, "N", "", {}, 2, 1000},
       {"draws", kComparison, "N", "", {}, 1000, 1e7},
       {"starts", kComparison, "N", "", {}, 0, 10000},
+      {"alpha", kDiscovery, "P", "", {}, 1e-4, 0.2},
+      {"bootstraps", kDiscovery, "N", "", {}, 99, 100000},
       {"config", kRunning, "FILE.yaml", ""},
       {"threads", kRunning, "N", "all cores", {}, 1, 1024},
   };

@@ -28,6 +28,8 @@ DECLARE_double(noise_orientation);
 DECLARE_double(noise);
 DECLARE_int64(seed);
 DECLARE_int32(folds);
+DECLARE_double(alpha);
+DECLARE_int32(bootstraps);
 DECLARE_int32(draws);
 DECLARE_int32(starts);
 DECLARE_int32(threads);

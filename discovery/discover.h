@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "discovery/discovery.h"
 #include "measurement/dataset.h"
@@ -14,6 +15,7 @@ struct DiscoverOptions {
   int bootstraps = 999;  // draws for the family-wise p-value; at least 99
   int folds = 5;         // of the held-out test
   int most_effects = 4;
+  std::optional<NoiseLevels> noise = {};  // in place of one that is not stated
   std::uint64_t seed = 1;
   int threads = 1;
   // Called with what is done and how much there is to do, and the name of the stage.

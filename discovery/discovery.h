@@ -89,7 +89,8 @@ struct PoseGap {
   int row = 0;
   Vector6d before = Vector6d::Zero(), after = Vector6d::Zero();  // residuals, frame T, [m, rad]
   Vector6d legs_before = Vector6d::Zero(), legs_after = Vector6d::Zero();  // in leg space, m
-  double weight = 1.0;  // below 1: taken for an outlier in part
+  std::optional<Vector6d> leg_lengths;  // of the reported pose, m; empty: no legs are known
+  double weight = 1.0;                  // below 1: taken for an outlier in part
 };
 
 // What the noise was found to be.

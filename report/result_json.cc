@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "report/effect_json.h"
 #include "report/json_parts.h"
 #include "report/json_text.h"
 
@@ -72,7 +73,9 @@ Json Noise(const NoiseSummary& noise) {
   return object;
 }
 
-Json ResultObject(const ResultHeader& header, const Estimate& estimate) {
+Json ResultObject(const ResultHeader& header,
+                  const Estimate& estimate,
+                  const std::vector<Effect>& effects) {
   const Observability& observability = estimate.observability;
   Json result;
   result["format"] = "hexcal/result/1";
@@ -108,18 +111,23 @@ Json ResultObject(const ResultHeader& header, const Estimate& estimate) {
   result["poses"] = Poses(estimate);
   result["outliers"] = Outliers(estimate);
   result["effects"] = Json::array();
+  for (const Effect& effect : effects) result["effects"].push_back(JsonEffect(effect));
   result["warnings"] = estimate.warnings;
   return result;
 }
 
 }  // namespace
 
-std::string ResultJson(const ResultHeader& header, const Estimate& estimate) {
-  return JsonText(ResultObject(header, estimate));
+std::string ResultJson(const ResultHeader& header,
+                       const Estimate& estimate,
+                       const std::vector<Effect>& effects) {
+  return JsonText(ResultObject(header, estimate, effects));
 }
 
-std::string ResultJsonLine(const ResultHeader& header, const Estimate& estimate) {
-  return JsonLine(ResultObject(header, estimate));
+std::string ResultJsonLine(const ResultHeader& header,
+                           const Estimate& estimate,
+                           const std::vector<Effect>& effects) {
+  return JsonLine(ResultObject(header, estimate, effects));
 }
 
 }  // namespace hexcal

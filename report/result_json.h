@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "estimator/estimate.h"
+#include "model/effect.h"
 
 namespace hexcal {
 
@@ -17,9 +19,14 @@ struct ResultHeader {
 
 // result.json (docs/results.md), format hexcal/result/1: a key a line, an entry of a list of
 // objects a line, no times. SI units. What the data cannot determine is null.
-std::string ResultJson(const ResultHeader& header, const Estimate& estimate);
+// effects: of the model, estimated together with base and tool.
+std::string ResultJson(const ResultHeader& header,
+                       const Estimate& estimate,
+                       const std::vector<Effect>& effects = {});
 
 // The same object on one line.
-std::string ResultJsonLine(const ResultHeader& header, const Estimate& estimate);
+std::string ResultJsonLine(const ResultHeader& header,
+                           const Estimate& estimate,
+                           const std::vector<Effect>& effects = {});
 
 }  // namespace hexcal

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/discover.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "apps/dataset_files.h"
+#include "apps/exit_status.h"
+#include "apps/flags.h"
+#include "apps/in_order.h"
+#include "apps/message.h"
+#include "apps/output_folder.h"
+#include "apps/record_of.h"
+#include "apps/stage_bars.h"
+#include "discovery/discover.h"
+#include "report/discovery_json.h"
+#include "report/discovery_table.h"
+#include "report/result_json.h"
+
+namespace hexcal {
+namespace {
+
+constexpr std::string_view kDiscoveryMark = R"("format": "hexcal/discovery/)";
+
+DiscoverOptions OptionsFromFlags() {
+  DiscoverOptions options;
+  options.alpha = FLAGS_alpha;
+  options.bootstraps = FLAGS_bootstraps;
+  options.folds = FLAGS_folds;
+  if (FLAGS_noise_position > 0)
+    options.noise = NoiseLevels{FLAGS_noise_position, FLAGS_noise_orientation};
+  options.seed = static_cast<std::uint64_t>(FLAGS_seed);
+  options.threads = ThreadsFor(FLAGS_threads);
+  return options;
+}
+
+Discovery DiscoverWithBars(const Dataset& dataset, DiscoverOptions options) {
+  StageBars bars(FLAGS_quiet);
+  options.progress = [&bars](const char* stage, int done, int of) { bars.Update(stage, done, of); };
+  return Discover(dataset, options);
+}
+
+ResultHeader HeaderOfModel(const Dataset& dataset) {
+  const bool by_markers = dataset.measurement->kind == Measurement::Kind::kMarkers;
+  return {dataset.name, "nonlinear", by_markers ? "marker" : "pose", ""};
+}
+
+std::vector<Effect> EffectsOf(const Discovery& discovery) {
+  std::vector<Effect> effects;
+  for (const DiscoveredEffect& found : discovery.effects) effects.push_back(found.effect);
+  return effects;
+}
+
+}  // namespace
+
+int RunDiscover(const std::vector<std::string>& files) {
+  const auto start = std::chrono::steady_clock::now();
+  const Dataset dataset = OpenDataset(files[0], true);
+  OutputFolder folder(FLAGS_out,
+                      dataset.name,
+                      {{"discovery.json", std::string(kDiscoveryMark)},
+                       {"result.json", std::string(kResultMark)},
+                       {"model.yaml", std::string(kModelMark)},
+                       {"run.json", std::string(kRunMark)}},
+                      InputFiles(dataset, ""),
+                      FLAGS_force);
+  const DiscoverOptions options = OptionsFromFlags();
+  const Discovery discovery = DiscoverWithBars(dataset, options);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const RunRecord record = RecordOf("discover", dataset, seconds, options.threads);
+  folder.Write("model.yaml", WriteMachine(discovery.machine));
+  folder.Write("run.json", RunJson(record));
+  folder.Write("result.json",
+               ResultJson(HeaderOfModel(dataset), discovery.estimate, EffectsOf(discovery)));
+  folder.Write("discovery.json", DiscoveryJson(dataset.name, options, discovery));
+  PrintNewWarnings(dataset, discovery.warnings, "discovery.json");
+  if (FLAGS_json && !FLAGS_quiet)
+    fmt::print("{}\n", DiscoveryJsonLine(dataset.name, options, discovery));
+  else if (!FLAGS_quiet)
+    fmt::print(
+        "{}  {:<15}{}\n\n", DiscoveryTable(dataset.name, discovery), "written to", folder.path());
+  return discovery.estimate.IsTrustworthy() ? kDone : kNotTrusted;
+}
+
+}  // namespace hexcal

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "discovery/discovery.h"
+
+namespace hexcal::testing {
+
+// A discovery written by hand, every number another one: leg 3's gain, which a radius could also
+// be, then an offset of the tool's second marker, which nothing else could; 24 poses.
+Discovery MakeDiscovery();
+
+}  // namespace hexcal::testing
