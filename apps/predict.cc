@@ -18,13 +18,6 @@
 namespace hexcal {
 namespace {
 
-// What the robot reported, seen through the hexapod of the model where it has one.
-std::vector<Pose3d> ReportedPoses(const Dataset& dataset, const Machine& machine) {
-  if (dataset.robot_poses.are_leg_lengths && machine.hexapod)
-    return ReportedPoses(dataset.robot_poses, *machine.hexapod);
-  return ReportedPoses(dataset);
-}
-
 std::string PredictionTable(const Dataset& dataset, const std::vector<Pose3d>& world_from_tool) {
   std::string table(kPredictionMark);
   for (std::size_t i = 0; i < world_from_tool.size(); ++i) {
@@ -58,8 +51,7 @@ int RunPredict(const std::vector<std::string>& files) {
                       {{out.filename().string(), std::string(kPredictionMark)}},
                       InputFiles(dataset, FLAGS_model),
                       FLAGS_force);
-  const std::vector<Pose3d> world_from_tool =
-      PredictToolPoses(machine, ReportedPoses(dataset, machine));
+  const std::vector<Pose3d> world_from_tool = Predict(machine, dataset);
   folder.Write(out.filename().string(), PredictionTable(dataset, world_from_tool));
   if (!FLAGS_quiet) fmt::print("{}: {} poses predicted\n", FLAGS_out, world_from_tool.size());
   return kDone;

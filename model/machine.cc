@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include "config/strict_yaml.h"
+#include "model/effect_yaml.h"
+#include "model/pose_map_yaml.h"
 
 namespace hexcal {
 namespace {
@@ -31,25 +33,6 @@ std::string ReadDatasetName(const YamlNode& node) {
                    "the name of a dataset: letters, digits, '.', '_' and '-' only");
 }
 
-std::string NameOfEffect(const YamlNode& effect) {
-  for (const auto& [key, value] : effect.entries)
-    if (key.scalar == "name" && value.kind == YamlNode::Kind::kScalar)
-      return fmt::format("the effect '{}'", value.scalar);
-  return fmt::format("{} among the effects", Describe(effect));
-}
-
-// An effect that is left out would make every prediction wrong without a word.
-void RefuseEffects(const MapReader& map) {
-  constexpr std::string_view kExpected =
-      "a model of base, tool and hexapod alone: this version of hexcal knows no effects";
-  if (const YamlNode* effects = map.Optional("effects")) {
-    const std::vector<YamlNode>& items = ReadSequence(*effects, "a list of effects");
-    if (!items.empty()) throw InputError(items[0].where, NameOfEffect(items[0]), kExpected);
-  }
-  if (const YamlNode* pose_map = map.Optional("pose_map"))
-    throw InputError(pose_map->where, "a pose_map", kExpected);
-}
-
 }  // namespace
 
 Machine ReadMachine(const std::string& path) {
@@ -66,7 +49,6 @@ Machine ReadMachine(const std::string& path) {
                        "effects",
                        "pose_map"});
   map.Required("format");
-  RefuseEffects(map);
   const Units si;
   Machine machine;
   machine.dataset = ReadDatasetName(map.Required("dataset"));
@@ -77,6 +59,9 @@ Machine ReadMachine(const std::string& path) {
     machine.world_from_tracker = ReadPose(*tracker, si, "world_from_tracker");
   if (const YamlNode* hexapod = map.Optional("hexapod"))
     machine.hexapod = ReadHexapodGeometry(*hexapod, si);
+  if (const YamlNode* effects = map.Optional("effects")) machine.effects = ReadEffects(*effects);
+  if (const YamlNode* pose_map = map.Optional("pose_map"))
+    machine.pose_map = ReadPoseMap(*pose_map);
   return machine;
 }
 
@@ -88,7 +73,9 @@ std::string WriteMachine(const Machine& machine) {
   if (machine.world_from_tracker)
     text += fmt::format("world_from_tracker: {}\n", WritePose(*machine.world_from_tracker));
   if (machine.hexapod) text += "hexapod:\n" + WriteHexapodGeometry(*machine.hexapod, "  ");
-  return text + "effects: []\n";
+  text += WriteEffects(machine.effects);
+  if (machine.pose_map) text += "pose_map:\n" + WritePoseMap(*machine.pose_map, "  ");
+  return text;
 }
 
 }  // namespace hexcal

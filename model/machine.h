@@ -3,9 +3,12 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry/pose.h"
 #include "measurement/hexapod_geometry.h"
+#include "model/effect.h"
+#include "model/pose_map.h"
 
 namespace hexcal {
 
@@ -16,6 +19,8 @@ struct Machine {
   Pose3d platform_from_tool;
   std::optional<Pose3d> world_from_tracker;  // where it is one for all poses
   std::optional<HexapodGeometry> hexapod;
+  std::vector<Effect> effects = {};
+  std::optional<PoseMap> pose_map = {};  // of an `unknown`; acts right of base_from_platform
 };
 
 // model.yaml (docs/model.md). Reads back what was written, to the last bit.

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 
+#include "model/data_fault.h"
 #include "model/hexapod.h"
+#include "model/machine_rows.h"
 
 namespace hexcal {
 namespace {
@@ -17,7 +20,7 @@ Location RowLocation(const RobotPoses& robot_poses, const RobotPose& row) {
   return where;
 }
 
-const HexapodGeometry& HexapodOf(const Dataset& dataset) {
+const HexapodGeometry& HexapodOfLegs(const Dataset& dataset) {
   if (dataset.hexapod) return *dataset.hexapod;
   throw InputError(dataset.robot_poses.where,
                    "leg lengths, but no hexapod that has these legs",
@@ -50,7 +53,7 @@ std::vector<Pose3d> ReportedPoses(const Dataset& dataset) {
   const RobotPoses& robot_poses = dataset.robot_poses;
   // Recorded poses need no hexapod.
   return ReportedPoses(robot_poses,
-                       robot_poses.are_leg_lengths ? HexapodOf(dataset) : HexapodGeometry());
+                       robot_poses.are_leg_lengths ? HexapodOfLegs(dataset) : HexapodGeometry());
 }
 
 std::vector<Pose3d> ReportedPoses(const RobotPoses& robot_poses, const HexapodGeometry& hexapod) {
@@ -65,6 +68,19 @@ std::vector<Pose3d> ReportedPoses(const RobotPoses& robot_poses, const HexapodGe
   return base_from_platform;
 }
 
+std::vector<Pose3d> ReportedPoses(const Dataset& dataset, const Machine& machine) {
+  const HexapodGeometry* hexapod = HexapodOf(dataset, machine);
+  if (dataset.robot_poses.are_leg_lengths && hexapod == nullptr) return ReportedPoses(dataset);
+  const bool has_fault =
+      std::any_of(machine.effects.begin(), machine.effects.end(), [](const Effect& effect) {
+        return FindFaultKind(effect.name) != nullptr;
+      });
+  const HexapodGeometry& legs = hexapod == nullptr ? HexapodGeometry() : *hexapod;
+  return has_fault
+             ? ReportedPoses(MendedRobotPoses(dataset.robot_poses, machine.effects, hexapod), legs)
+             : ReportedPoses(dataset.robot_poses, legs);
+}
+
 std::vector<Matrix6d> ReportedCovariances(const Dataset& dataset,
                                           const std::vector<Pose3d>& base_from_platform) {
   const RobotPoses& robot_poses = dataset.robot_poses;
@@ -73,7 +89,7 @@ std::vector<Matrix6d> ReportedCovariances(const Dataset& dataset,
   std::vector<Matrix6d> covariances;
   if (!robot_poses.leg_noise) return covariances;
 
-  const HexapodGeometry& hexapod = HexapodOf(dataset);
+  const HexapodGeometry& hexapod = HexapodOfLegs(dataset);
   covariances.reserve(base_from_platform.size());
   for (std::size_t i = 0; i < base_from_platform.size(); ++i) {
     const Eigen::FullPivLU<Matrix6d> legs(LegJacobian(hexapod, base_from_platform[i]));
@@ -93,6 +109,18 @@ std::vector<Pose3d> PredictToolPoses(const Machine& machine,
   world_from_tool.reserve(base_from_platform.size());
   for (const Pose3d& pose : base_from_platform)
     world_from_tool.emplace_back(machine.world_from_base * pose * machine.platform_from_tool);
+  return world_from_tool;
+}
+
+std::vector<Pose3d> Predict(const Machine& machine, const Dataset& dataset) {
+  const std::vector<Pose3d> reported = ReportedPoses(dataset, machine);
+  // Nothing to be driven: long tables need no visits.
+  if (machine.effects.empty() && !machine.pose_map) return PredictToolPoses(machine, reported);
+  MachineRows rows(dataset, machine, reported, EffectSites::kRobotAndMounts);
+  std::vector<Pose3d> world_from_tool;
+  world_from_tool.reserve(reported.size());
+  for (std::size_t i = 0; i < reported.size(); ++i)
+    world_from_tool.push_back(rows.Forward(rows.Next()).world_from_tool);
   return world_from_tool;
 }
 

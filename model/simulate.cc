@@ -5,7 +5,9 @@
 
 #include <random>
 
+#include "model/data_fault.h"
 #include "model/hexapod.h"
+#include "model/machine_rows.h"
 #include "model/predict.h"
 
 namespace hexcal {
@@ -64,6 +66,7 @@ struct Scene {
   const Machine& machine;
   const HexapodGeometry* hexapod;  // the machine's, else the dataset's; null: none
   Pose3d tracker_from_world;
+  std::vector<int> marker_as_read;  // MarkersAsRead
 };
 
 Pose3d TrackerFromWorld(const Dataset& dataset, const Machine& machine) {
@@ -98,31 +101,61 @@ Pose3d TruePlatform(const Scene& scene,
       "poses and a leg noise that leave the platform in its workspace");
 }
 
+// The coordinates of a body's markers where they really are.
+Eigen::Matrix3Xd TrueMarkers(const MarkerBody& body, const Eigen::Matrix3Xd& correction) {
+  return correction.cols() == 0 ? body.p_in_body : Eigen::Matrix3Xd(body.p_in_body + correction);
+}
+
 void SeeMarkers(const Scene& scene,
-                int pose,
+                const MachineRows::Row& row,
                 const Pose3d& world_from_tool,
                 PoseDraws* draws,
                 Measurement* measurement) {
   const std::array<Pose3d, 2> tracker_from_body = {scene.tracker_from_world,
                                                    scene.tracker_from_world * world_from_tool};
   const Eigen::Vector3d sigma = measurement->marker_sigma.value_or(Eigen::Vector3d::Zero());
+  const int base_markers = static_cast<int>(measurement->bodies[0].markers.size());
   for (int frame = 0; frame < scene.dataset.tracker.frames; ++frame) {
-    for (const BodyId id : {BodyId::kBase, BodyId::kTool}) {
-      const Eigen::Matrix3Xd& markers = measurement->bodies[static_cast<int>(id)].p_in_body;
+    for (const int body : {0, 1}) {
+      const Eigen::Matrix3Xd markers =
+          TrueMarkers(measurement->bodies[body], row.corrections.markers[body]);
       for (int marker = 0; marker < markers.cols(); ++marker) {
         const Eigen::Vector3d p_in_body = markers.col(marker);
-        const Eigen::Vector3d p_in_tracker = tracker_from_body[static_cast<int>(id)] * p_in_body +
-                                             sigma.cwiseProduct(draws->Draw<3>());
-        measurement->readings.push_back({pose, frame, id, marker, p_in_tracker});
+        const Eigen::Vector3d p_in_tracker =
+            TrackerReading(row.corrections, tracker_from_body[body] * p_in_body) +
+            sigma.cwiseProduct(draws->Draw<3>());
+        const int name = scene.marker_as_read[body * base_markers + marker];
+        const bool is_of_tool = name >= base_markers;
+        measurement->readings.push_back({row.visit.row,
+                                         frame,
+                                         is_of_tool ? BodyId::kTool : BodyId::kBase,
+                                         is_of_tool ? name - base_markers : name,
+                                         p_in_tracker});
       }
     }
   }
 }
 
-void SeePose(int pose, const Pose3d& world_from_tool, PoseDraws* draws, Measurement* measurement) {
+void SeePose(const MachineRows::Row& row,
+             const Pose3d& world_from_tool,
+             PoseDraws* draws,
+             Measurement* measurement) {
   const Vector6d sigma = Sigma(measurement->pose_noise.value_or(PoseNoise()));
   const Vector6d noise = sigma.cwiseProduct(draws->Draw<6>());
-  measurement->poses.push_back({pose, Plus(world_from_tool, noise)});
+  const Pose3d reading = TrackerPoseReading(row.corrections, world_from_tool);
+  measurement->poses.push_back({row.visit.row, Plus(reading, noise)});
+}
+
+std::vector<int> MarkerNames(const Measurement& measurement, const Machine& machine) {
+  const int markers =
+      static_cast<int>(measurement.bodies[0].markers.size() + measurement.bodies[1].markers.size());
+  for (const Effect& effect : machine.effects)
+    for (const int marker : effect.name == "swapped_markers" ? effect.index : std::vector<int>())
+      if (marker > markers)
+        throw InputError(measurement.where,
+                         fmt::format("{} markers", markers),
+                         fmt::format("the marker {} that the model says is swapped", marker));
+  return MarkersAsRead(machine.effects, markers);
 }
 
 // The measurement's description without what was measured.
@@ -144,22 +177,23 @@ Dataset Simulate(const Dataset& dataset, const Machine& machine, const SimulateO
   const bool sees_markers = measurement.kind == Measurement::Kind::kMarkers;
   if (sees_markers) RefuseCentroidBodies(measurement);
 
-  const std::optional<HexapodGeometry>& hexapod =
-      machine.hexapod ? machine.hexapod : dataset.hexapod;
-  const Scene scene = {
-      dataset, machine, hexapod ? &*hexapod : nullptr, TrackerFromWorld(dataset, machine)};
-  const std::vector<Pose3d> reported =
-      hexapod ? ReportedPoses(dataset.robot_poses, *hexapod) : ReportedPoses(dataset);
+  const Scene scene = {dataset,
+                       machine,
+                       HexapodOf(dataset, machine),
+                       TrackerFromWorld(dataset, machine),
+                       MarkerNames(measurement, machine)};
+  const std::vector<Pose3d> reported = ReportedPoses(dataset, machine);
+  MachineRows rows(dataset, machine, reported, EffectSites::kAll);
   for (std::size_t i = 0; i < reported.size(); ++i) {
-    const RobotPose& row = dataset.robot_poses.rows[i];
-    PoseDraws draws(options, row.label);
-    const Pose3d base_from_platform = TruePlatform(scene, row, reported[i], &draws);
-    const Pose3d world_from_tool = PredictToolPoses(machine, {base_from_platform})[0];
-    const int pose = static_cast<int>(i);
+    const RobotPose& recorded = dataset.robot_poses.rows[i];
+    PoseDraws draws(options, recorded.label);
+    MachineRows::Row row = rows.Next();
+    row.visit.base_from_platform = TruePlatform(scene, recorded, reported[i], &draws);
+    const Pose3d world_from_tool = rows.Forward(row).world_from_tool;
     if (sees_markers)
-      SeeMarkers(scene, pose, world_from_tool, &draws, &measurement);
+      SeeMarkers(scene, row, world_from_tool, &draws, &measurement);
     else
-      SeePose(pose, world_from_tool, &draws, &measurement);
+      SeePose(row, world_from_tool, &draws, &measurement);
   }
   Dataset simulated = dataset;
   simulated.measurement = std::move(measurement);

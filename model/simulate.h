@@ -13,8 +13,9 @@ struct SimulateOptions {
   double noise = 1.0;  // factor on every stated sigma; 0 for none
 };
 
-// What the tracker would see of the dataset's robot poses if the machine were the truth: the
-// dataset with its measurement replaced, every marker seen in every pose.
+// What the tracker would see of the dataset's robot poses if the machine, with all its effects,
+// were the truth: the dataset with its measurement replaced, every marker seen in every pose. What
+// drives an effect is taken as recorded.
 //
 // Markers (rigid bodies only) get the dataset's marker sigma along the tracker's axes,
 // tracker.frames times a pose; measured poses get measurement.noise in frame T. robot_poses.noise

@@ -156,18 +156,52 @@ TEST(Machine, MayHaveAnEmptyListOfEffects) {
   EXPECT_EQ(Read(std::string(kPlain) + "effects: []\n").dataset, "paper");
 }
 
-TEST(Machine, WithAnEffectIsRefusedByTheEffectsName) {
-  EXPECT_EQ(MessageOf(std::string(kPlain) +
-                      "effects:\n"
-                      "  - {name: leg_periodic, index: [3], parameters: {amplitude: 1e-5}}\n"),
-            ":6:5: found the effect 'leg_periodic', expected a model of base, tool and hexapod "
-            "alone: this version of hexcal knows no effects");
+TEST(Machine, ReadsBackItsEffectsAndItsPoseMap) {
+  std::mt19937_64 rng = SeededByTest();
+  Machine machine;
+  machine.dataset = "grown";
+  Effect effect;
+  effect.name = "tracker_scale";
+  effect.parameters = 1e-4 * testing::Normal(rng, 1);
+  effect.standard_deviation = 1e-5 * testing::Normal(rng, 1).cwiseAbs();
+  machine.effects = {effect};
+  PoseMap map;
+  map.degree = 2;
+  map.reference = JitteredPose(rng);
+  map.centre = testing::Normal(rng, 6);
+  map.half_width = testing::Normal(rng, 6).cwiseAbs();
+  map.coefficients =
+      Eigen::Map<const Eigen::MatrixXd>(testing::Normal(rng, 168).eval().data(), 6, 28);
+  machine.pose_map = map;
+  const std::string text = WriteMachine(machine);
+  const Machine back = Read(text);
+  ASSERT_EQ(back.effects.size(), 1u);
+  EXPECT_EQ(back.effects[0].parameters, effect.parameters);
+  ASSERT_TRUE(back.pose_map);
+  EXPECT_EQ(back.pose_map->degree, 2);
+  EXPECT_TRUE(SameBits(back.pose_map->reference, map.reference));
+  EXPECT_EQ(back.pose_map->centre, map.centre);
+  EXPECT_EQ(back.pose_map->half_width, map.half_width);
+  EXPECT_EQ(back.pose_map->coefficients, map.coefficients);
+  EXPECT_EQ(WriteMachine(back), text);
 }
 
-TEST(Machine, WithAPoseMapIsRefused) {
-  EXPECT_EQ(MessageOf(std::string(kPlain) + "pose_map: {box: 1}\n"),
-            ":5:11: found a pose_map, expected a model of base, tool and hexapod alone: this "
-            "version of hexcal knows no effects");
+TEST(Machine, WithAnEffectThatIsNoneIsRefused) {
+  EXPECT_EQ(MessageOf(std::string(kPlain) + "effects:\n  - {name: leg_ofset}\n"),
+            ":6:12: found the effect 'leg_ofset', expected 'leg_offset'?");
+}
+
+TEST(Machine, WithAPoseMapThatIsNoneIsRefused) {
+  const std::string box =
+      "box: {centre: [0, 0, 0, 0, 0, 0], half_width: [1, 1, 1, 1, 1, 1]}, reference: {xyz: [0, 0, "
+      "0], quaternion: [1, 0, 0, 0]}";
+  EXPECT_NE(MessageOf(std::string(kPlain) + "pose_map: {box: 1}\n").find(":5:"), std::string::npos);
+  EXPECT_EQ(
+      MessageOf(std::string(kPlain) + "pose_map: {degree: 3, coefficients: [], " + box + "}\n"),
+      ":5:20: found the degree 3, expected 1 or 2");
+  EXPECT_EQ(MessageOf(std::string(kPlain) + "pose_map: {degree: 1, coefficients: [[1, 2]], " + box +
+                      "}\n"),
+            ":5:37: found a list of 1, expected six lists of coefficients");
 }
 
 TEST(Machine, OfAnotherFormatIsRefusedBeforeItsKeys) {
