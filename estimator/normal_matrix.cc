@@ -3,11 +3,13 @@
 
 #include <Eigen/Cholesky>
 
+#include "estimator/spd_factor.h"
 #include "geometry/linear_algebra.h"
 
 namespace hexcal {
 namespace {
 
+constexpr int kBaseAndTool = 12;
 constexpr double kRankThreshold = 1e-12;
 // Squared pivots of columns of unit length: above it the triangular factor tells the rank.
 constexpr double kSafePivot = 1e-8;
@@ -17,6 +19,16 @@ constexpr double kKeptShare = 1e-8;
 Eigen::MatrixXd WithUnitDiagonal(const Eigen::MatrixXd& normal, const Eigen::VectorXd& norms) {
   const Eigen::VectorXd scale = norms.cwiseInverse();
   return scale.asDiagonal() * normal * scale.asDiagonal();
+}
+
+// Without eigenvalues: of a matrix with a diagonal of ones the smallest is no less than one over
+// the trace of the inverse, the largest no more than the trace.
+bool SurelyKeepsItsWeakest(const Eigen::MatrixXd& normal) {
+  if (normal.rows() != kBaseAndTool) return false;
+  const SpdFactor<kBaseAndTool> factor(normal);
+  if (!(factor.smallest_pivot() > kSafePivot)) return false;
+  const double trace = factor.Inverse().diagonal().dot(normal.diagonal());
+  return 1.0 / trace > kKeptShare * kBaseAndTool;
 }
 
 }  // namespace
@@ -30,6 +42,10 @@ Eigen::MatrixXd InverseOfNormal(const Eigen::MatrixXd& normal,
 }
 
 Eigen::MatrixXd InverseOfNormal(const Eigen::MatrixXd& normal) {
+  if (normal.rows() == kBaseAndTool) {
+    const SpdFactor<kBaseAndTool> factor(normal);
+    if (factor.smallest_pivot() > kSafePivot) return factor.Inverse();
+  }
   const Eigen::VectorXd norms = normal.diagonal().cwiseSqrt();
   if (!(norms.minCoeff() > 0)) return InverseOfNormal(normal, norms);
   const Eigen::VectorXd scale = norms.cwiseInverse();
@@ -42,6 +58,7 @@ Eigen::MatrixXd InverseOfNormal(const Eigen::MatrixXd& normal) {
 }
 
 bool KeepsItsWeakest(const Eigen::MatrixXd& normal) {
+  if (SurelyKeepsItsWeakest(normal)) return true;
   const Eigen::VectorXd norms = normal.diagonal().cwiseSqrt();
   if (!(norms.minCoeff() > 0)) return false;
   const Eigen::VectorXd values = DecomposeSymmetric(WithUnitDiagonal(normal, norms)).values;
