@@ -6,6 +6,7 @@
 
 #include "apps/calibrate.h"
 #include "apps/compare.h"
+#include "apps/discover.h"
 #include "apps/predict.h"
 #include "apps/simulate.h"
 
@@ -80,6 +81,35 @@ const Command kCompare = {
     &RunCompare,
 };
 
+const Command kDiscover = {
+    "discover",
+    "finds where prediction and measurement disagree, and names the missing effect",
+    "DATASET",
+    1,
+    1,
+    "Calibrates base and tool, tests what they leave against every effect of docs/effects.md that "
+    "the dataset can be tested for, names the one that the data support (or the class, or says "
+    "that "
+    "it is unknown), adds it to the model, fits again and shows how far the gap between prediction "
+    "and measurement shrinks, on poses that neither the fit nor the choice has seen. Writes "
+    "discovery.json, result.json, model.yaml (for predict, simulate and calibrate --model) and "
+    "run.json to DIR/<name>/. No verdict changes the exit status; 4: the 12 parameters cannot be "
+    "trusted.",
+    {{"out", true, "DIR", "The results go to DIR/<name>/."},
+     {"alpha"},
+     {"bootstraps"},
+     {"noise_position"},
+     {"noise_orientation"},
+     {"folds"},
+     {"seed", false, {}, "The same seed draws the same noise and the same folds."},
+     {"config"},
+     {"threads"},
+     {"json"},
+     {"quiet"},
+     {"force"}},
+    &RunDiscover,
+};
+
 const Command kPredict = {
     "predict",
     "where the machine really is, by a calibrated model",
@@ -126,7 +156,8 @@ const CommandFlag* Command::FindFlag(std::string_view flag) const {
 }
 
 const std::vector<Command>& Commands() {
-  static const std::vector<Command> commands = {kCalibrate, kCompare, kPredict, kSimulate};
+  static const std::vector<Command> commands = {
+      kCalibrate, kCompare, kDiscover, kPredict, kSimulate};
   return commands;
 }
 

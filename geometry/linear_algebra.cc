@@ -43,4 +43,18 @@ Eigen::MatrixXd TriangularFactor(const Eigen::MatrixXd& a) {
   return qr.matrixQR().topRows(a.cols()).triangularView<Eigen::Upper>();
 }
 
+Eigen::MatrixXd OrthonormalBasis(const Eigen::MatrixXd& a, double threshold) {
+  Eigen::MatrixXd scaled = a;
+  Eigen::Index kept = 0;
+  for (Eigen::Index k = 0; k < a.cols(); ++k) {
+    const double length = a.col(k).norm();
+    if (length > 0.0) scaled.col(kept++) = a.col(k) / length;
+  }
+  if (kept == 0) return Eigen::MatrixXd(a.rows(), 0);
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(threshold);
+  qr.compute(scaled.leftCols(kept));
+  return qr.householderQ() * Eigen::MatrixXd::Identity(a.rows(), qr.rank());
+}
+
 }  // namespace hexcal

@@ -34,4 +34,8 @@ Eigen::VectorXd ShortestSolution(const Eigen::MatrixXd& a,
 // The upper triangular n x n factor R of a = Q R, a with n columns and at least as many rows.
 Eigen::MatrixXd TriangularFactor(const Eigen::MatrixXd& a);
 
+// Orthonormal columns that span those of a, whatever their units: columns are scaled to length one
+// first, pivots below threshold count as zero. Rows x rank.
+Eigen::MatrixXd OrthonormalBasis(const Eigen::MatrixXd& a, double threshold);
+
 }  // namespace hexcal

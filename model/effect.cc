@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/described_effect.h"
+
 namespace hexcal {
 namespace {
 
@@ -175,7 +177,10 @@ EffectReference ReferenceFor(const EffectKind& kind,
 Corrections<double> CorrectionsOf(const std::vector<Effect>& effects, const Visit& visit) {
   Corrections<double> corrections;
   for (const Effect& effect : effects) {
-    if (effect.name == kUnknownEffect) continue;
+    if (effect.name == kUnknownEffect) {
+      AddDescribed(effect, effect.parameters, visit, &corrections);
+      continue;
+    }
     const EffectKind& kind = KindOf(effect);
     const EffectInput input = {visit, effect.index, effect.reference};
     if (!kind.IsFault()) kind.apply(input, effect.parameters.data(), &corrections);
@@ -184,6 +189,12 @@ Corrections<double> CorrectionsOf(const std::vector<Effect>& effects, const Visi
 }
 
 Corrections<double> CorrectionsBy(const Effect& effect, int parameter, const Visit& visit) {
+  if (effect.name == kUnknownEffect) {
+    Corrections<double> slopes;
+    AddDescribed(
+        effect, Eigen::VectorXd::Unit(effect.parameters.size(), parameter), visit, &slopes);
+    return slopes;
+  }
   const EffectKind& kind = KindOf(effect);
   CHECK(!kind.IsFault()) << effect.name << " has no parameter";
   CHECK(parameter >= 0 && parameter < effect.parameters.size());

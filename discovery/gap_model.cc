@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/gap_model.h"
+
+#include <glog/logging.h>
+
+#include <cmath>
+
+#include "discovery/site_jacobians.h"
+#include "geometry/linear_algebra.h"
+#include "model/described_effect.h"
+#include "model/predict.h"
+
+namespace hexcal {
+namespace {
+
+using Motion = Corrections<double>;
+
+// d(corrections) / d(coefficient k of a form) at one visit.
+Motion MotionOf(const FormDefinition& form, int k, const Visit& visit) {
+  if (form.reading == FormDefinition::Reading::kLinear) {
+    Motion sum;
+    bool is_first = true;
+    for (Eigen::Index n = 0; n < form.directions.rows(); ++n) {
+      const double share = form.directions(n, k);
+      if (share == 0.0) continue;
+      CHECK(is_first || form.effect.name.rfind("leg", 0) == 0) << "only legs move together";
+      const Motion one = CorrectionsBy(form.effect, static_cast<int>(n), visit);
+      if (is_first)
+        sum = one, sum.leg *= share, is_first = false;
+      else
+        sum.leg += share * one.leg;
+    }
+    return sum;
+  }
+  const EffectKind& kind = *FindEffectKind(form.effect.name);
+  Effect effect = form.effect;
+  if (form.reading == FormDefinition::Reading::kCompliance) {
+    if (k > 0) effect.parameters[kind.OffsetOf("compliance")] = kind.ScaleOf(0);
+    return CorrectionsBy(effect, k, visit);
+  }
+  // Sine, then cosine, of each leg; a single pair moves all legs.
+  const int amplitude = kind.OffsetOf("amplitude"), phase = kind.OffsetOf("phase");
+  effect.parameters.segment<kNumLegs>(phase).setConstant(k % 2 == 0 ? 0.0 : 0.5 * M_PI);
+  if (form.size() == 2 * kNumLegs) return CorrectionsBy(effect, amplitude + k / 2, visit);
+  Motion sum;
+  for (int leg = 0; leg < kNumLegs; ++leg)
+    sum.leg += CorrectionsBy(effect, amplitude + leg, visit).leg;
+  return sum;
+}
+
+// Columns of all forms at one machine.
+class ColumnWriter {
+ public:
+  ColumnWriter(const FormLibrary& library, int poses, int shape_rows, LinearProblem* problem)
+      : library_(library), shape_rows_(shape_rows), problem_(problem) {
+    LayOut();
+    all_.setZero(6 * poses, columns_);
+  }
+
+  // Of one pose; shape_at: its first shape row.
+  void Write(int pose,
+             const SiteJacobians& sites,
+             const SeenPose& seen,
+             const Motion& here,
+             const Visit& visit,
+             int shape_at) {
+    for (std::size_t f = 0; f < library_.forms.size(); ++f) {
+      const FormDefinition& form = library_.forms[f];
+      if (form.shares >= 0) continue;
+      for (int k = 0; k < form.size(); ++k) {
+        const Motion motion = MotionOf(form, k, visit);
+        const int column = problem_->forms[f].first + k;
+        auto cell = all_.block<6, 1>(6 * pose, column);
+        cell = sites.Apply(motion);
+        if (!MovesReadings(motion)) continue;
+        const SeenMotion moved = SeenBy(seen, here, motion);
+        cell += moved.pose;
+        if (moved.shape.size() == 0) continue;
+        if (problem_->shape_of[column] < 0) AddShapeColumn(column);
+        shape_[problem_->shape_of[column]].segment(shape_at, moved.shape.size()) = moved.shape;
+      }
+    }
+  }
+
+  void Finish() {
+    Eigen::MatrixXd shape(shape_rows_, static_cast<Eigen::Index>(shape_.size()));
+    for (std::size_t k = 0; k < shape_.size(); ++k) shape.col(k) = shape_[k];
+    problem_->columns = std::make_shared<Eigen::MatrixXd>(std::move(all_));
+    problem_->shape_columns = std::make_shared<Eigen::MatrixXd>(std::move(shape));
+  }
+
+ private:
+  void LayOut() {
+    std::vector<double> scale;
+    for (const FormDefinition& definition : library_.forms) {
+      Form form;
+      form.family = definition.family;
+      form.index = definition.effect.index;
+      form.size = definition.size();
+      form.log_prior = definition.log_prior;
+      form.definition = static_cast<int>(problem_->forms.size());
+      form.first = definition.shares < 0
+                       ? columns_
+                       : problem_->forms[definition.shares].first + definition.shares_from;
+      if (definition.shares < 0) {
+        columns_ += form.size;
+        scale.insert(scale.end(), definition.scale.begin(), definition.scale.end());
+      }
+      problem_->forms.push_back(form);
+    }
+    problem_->scale = Eigen::Map<Eigen::VectorXd>(scale.data(), columns_);
+    problem_->shape_of.assign(columns_, -1);
+    problem_->families = library_.families;
+  }
+
+  void AddShapeColumn(int column) {
+    problem_->shape_of[column] = static_cast<int>(shape_.size());
+    shape_.push_back(Eigen::VectorXd::Zero(shape_rows_));
+  }
+
+  const FormLibrary& library_;
+  const int shape_rows_;
+  LinearProblem* problem_;
+  int columns_ = 0;
+  Eigen::MatrixXd all_;
+  std::vector<Eigen::VectorXd> shape_;
+};
+
+// The covariance of a pose's error: what the tracker is stated to do (or one level for positions
+// and one for orientations), and a robot that does not repeat, in its own frame.
+void AddComponents(const GapData& data,
+                   const SiteJacobians& sites,
+                   const SeenPose& seen,
+                   LinearProblem* problem) {
+  const Measurement& measurement = *data.dataset->measurement;
+  const bool by_markers = measurement.kind == Measurement::Kind::kMarkers;
+  std::vector<Matrix6d> components;
+  Matrix6d position = Matrix6d::Zero(), orientation = Matrix6d::Zero();
+  position.topLeftCorner<3, 3>().setIdentity();
+  orientation.bottomRightCorner<3, 3>().setIdentity();
+  if (by_markers || data.tool_poses.has_covariance) {
+    Matrix6d stated = seen.covariance;
+    const Matrix6d& carry = sites.platform_twist;
+    if (!data.reported_covariances.empty())
+      stated += carry * data.reported_covariances[seen.row] * carry.transpose();
+    components = {
+        stated, carry * position * carry.transpose(), carry * orientation * carry.transpose()};
+  } else {
+    components = {position, orientation};
+  }
+  problem->components.resize(components.size());
+  for (std::size_t c = 0; c < components.size(); ++c)
+    problem->components[c].push_back(components[c]);
+}
+
+Eigen::VectorXd ShapeOf(const SeenPose& seen) {
+  std::array<Eigen::VectorXd, 2> parts;
+  for (int b = 0; b < 2; ++b)
+    if (!seen.bodies[b].markers.empty()) parts[b] = seen.bodies[b].Misfit();
+  Eigen::VectorXd all(parts[0].size() + parts[1].size());
+  all << parts[0], parts[1];
+  return all;
+}
+
+void CollectShape(const std::vector<SeenPose>& seen, LinearProblem* problem) {
+  std::vector<double> rows;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    const Eigen::VectorXd shape = ShapeOf(seen[k]);
+    rows.insert(rows.end(), shape.begin(), shape.end());
+    problem->shape_pose.insert(problem->shape_pose.end(), shape.size(), static_cast<int>(k));
+    problem->shape_freedom.push_back(static_cast<int>(shape.size()));
+  }
+  problem->shape_error =
+      Eigen::Map<Eigen::VectorXd>(rows.data(), static_cast<Eigen::Index>(rows.size()));
+  problem->shape_nuisance.setZero(problem->shape_error.size(), 12);
+}
+
+}  // namespace
+
+GapData MakeGapData(const Dataset& dataset, const std::vector<Pose3d>& reported) {
+  GapData data;
+  data.dataset = &dataset;
+  data.hexapod = dataset.hexapod;
+  data.visits = MakeVisits(dataset, data.hexapod ? &*data.hexapod : nullptr, reported);
+  data.tool_poses = ComputeToolPoses(dataset);
+  for (const ToolPose& pose : data.tool_poses.poses) data.rows.push_back(pose.pose);
+  data.reported_covariances = ReportedCovariances(dataset, reported);
+  return data;
+}
+
+GapProblem MakeGapProblem(const GapData& data,
+                          const Mounts& mounts,
+                          const std::vector<Effect>& effects,
+                          const FormLibrary& library) {
+  GapProblem problem;
+  const HexapodGeometry* hexapod = data.hexapod ? &*data.hexapod : nullptr;
+  std::vector<Motion> corrections;
+  if (!effects.empty())
+    for (const Visit& visit : data.visits) corrections.push_back(CorrectionsOf(effects, visit));
+  problem.seen = SeePoses(*data.dataset, data.tool_poses, corrections);
+  const int poses = static_cast<int>(problem.seen.size());
+
+  LinearProblem& linear = problem.linear;
+  linear.poses = poses;
+  linear.error.resize(6 * poses);
+  linear.nuisance.resize(6 * poses, 12);
+  problem.trend.resize(6 * poses, 12);
+  CollectShape(problem.seen, &linear);
+  ColumnWriter writer(library, poses, static_cast<int>(linear.shape_error.size()), &linear);
+  int shape_at = 0;
+  for (int k = 0; k < poses; ++k) {
+    const SeenPose& seen = problem.seen[k];
+    const Visit& visit = data.visits[seen.row];
+    const Motion here = corrections.empty() ? Motion() : corrections[seen.row];
+    const ForwardPose at = Forward(mounts, hexapod, visit, here);
+    CHECK(at.reached) << "no pose for row " << seen.row;
+    problem.predicted.push_back(at.world_from_tool);
+    linear.error.segment<6>(6 * k) = Minus(seen.world_from_tool, at.world_from_tool);
+    const SiteJacobians sites = SitesOf(mounts, hexapod, visit, here, at);
+    linear.nuisance.middleRows<6>(6 * k) = sites.mounts;
+    const double order = poses > 1 ? static_cast<double>(k) / (poses - 1) - 0.5 : 0.0;
+    problem.trend.middleRows<6>(6 * k) = order * sites.mounts;
+    AddComponents(data, sites, seen, &linear);
+    writer.Write(k, sites, seen, here, visit, shape_at);
+    shape_at += linear.shape_freedom[k];
+    if (hexapod != nullptr) problem.legs_by_error.push_back(PseudoInverse(sites.leg, 1e-12));
+  }
+  writer.Finish();
+  return problem;
+}
+
+}  // namespace hexcal

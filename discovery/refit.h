@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "discovery/gap_model.h"
+#include "discovery/gap_noise.h"
+#include "discovery/joint_fit.h"
+
+namespace hexcal {
+
+// The grown machine: base, tool and all parameters of the effects together, exactly (Gauss-Newton
+// over the forward model), with wide priors on the effects.
+struct Refit {
+  Mounts mounts;
+  std::vector<Effect> effects;  // with standard deviations
+  Eigen::MatrixXd covariance;   // of the mounts' 12, then of the free parameters
+  GapProblem problem;           // at the solution, with the effects' free parameters as forms
+  bool converged = false;
+};
+
+// effects: where to start. Free are the parameters of the legs or markers that an effect's index
+// names, and what was searched for but times of steps. noise: of the poses, held.
+Refit RefitMachine(const GapData& data,
+                   const Mounts& start,
+                   const std::vector<Effect>& effects,
+                   const GapNoise& noise);
+
+}  // namespace hexcal
