@@ -205,7 +205,7 @@ FormLibrary MakeFormLibrary(const Dataset& dataset,
     }
     if (kind.IsFault()) continue;
     const int family = static_cast<int>(library.families.size());
-    library.families.push_back({std::string(kind.name), 0.0, false});
+    library.families.push_back({std::string(kind.name), kind.log_prior, false});
     FormMaker(dataset, visits, rows, kind, family, &library).Add();
   }
   AddDescribedForms(dataset, visits, rows, &library);

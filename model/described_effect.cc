@@ -91,6 +91,7 @@ void AddDescribed(const Effect& effect,
                   const Eigen::VectorXd& factor,
                   const Visit& visit,
                   Corrections<double>* corrections) {
+  if (effect.found.count("site") == 0) return;  // nothing is said of it
   const std::string& site = effect.found.at("site");
   if (IsPoseMap(effect)) {
     const PoseMap map = PoseMapOf(effect);

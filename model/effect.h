@@ -78,6 +78,8 @@ struct EffectKind {
   EffectFunction<double> apply = nullptr;
   EffectFunction<Dual> apply_dual = nullptr;
   std::vector<ReferenceKind> references = {};  // that apply asks for
+  // ln of how often it is met against the others: it decides only where the data hardly do.
+  double log_prior = 0.0;
 
   int size() const;  // of all parameters, with one marker
   int SizeFor(const std::vector<int>& index) const;
