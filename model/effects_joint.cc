@@ -44,8 +44,8 @@ void PlatformRadius(const EffectInput& input, const T* growth, Corrections<T>* c
   AddScaled(growth[0], input.visit.plates->platform_radial, corrections->platform_joints);
 }
 
-// Of a joint whose second axis passes the first at a distance, the leg's line passes the centre: it
-// is shorter by the part of that distance along the leg. offset: on the base, on the platform.
+// Where the two axes of a universal joint miss each other by an offset, the leg is shorter by it
+// times the sine of the angle between leg and first axis. offset: on the base, on the platform.
 template <typename T>
 void JointAxisOffset(const EffectInput& input, const T* offset, Corrections<T>* corrections) {
   const auto sine = [](double cosine) { return std::sqrt(std::max(0.0, 1.0 - cosine * cosine)); };

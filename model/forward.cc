@@ -64,6 +64,14 @@ Vector6d LegTwist(const HexapodGeometry& hexapod,
   return jacobian.partialPivLu().solve(lengthening);
 }
 
+// One more Newton step than the tolerance of forward kinematics asks for: what is left is rounding,
+// so that differences of predictions mean something.
+Pose3d Polished(const HexapodGeometry& hexapod, const LegLengths& lengths, const Pose3d& pose) {
+  const LegLengths misfit = lengths - InverseKinematics(hexapod, pose);
+  const Vector6d step = LegJacobian(hexapod, pose).partialPivLu().solve(misfit);
+  return Plus(pose, step);
+}
+
 }  // namespace
 
 ForwardPose Forward(const Mounts& mounts,
@@ -76,10 +84,12 @@ ForwardPose Forward(const Mounts& mounts,
     CHECK(hexapod != nullptr) << "corrected legs without a hexapod";
     const LegLengths lengths =
         InverseKinematics(*hexapod, visit.base_from_platform) + corrections.leg;
+    const HexapodGeometry corrected = Corrected(*hexapod, corrections);
     const ForwardKinematicsResult found =
-        ForwardKinematics(Corrected(*hexapod, corrections), lengths, visit.base_from_platform);
+        ForwardKinematics(corrected, lengths, visit.base_from_platform);
     result.reached = found.converged;
-    if (found.converged) result.base_from_platform = found.base_from_platform;
+    if (found.converged)
+      result.base_from_platform = Polished(corrected, lengths, found.base_from_platform);
   }
   result.base_from_platform = Moved(result.base_from_platform, corrections.platform_twist);
   result.world_from_tool = Moved(mounts.world_from_base, corrections.base_twist) *

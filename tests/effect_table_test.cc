@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Laws that all effects obey. tests/effects_test.cc has each one's own values.
 #include <cmath>
+#include <fstream>
 #include <set>
+#include <sstream>
 
 #include "model/effect.h"
 #include "testing/datasets.h"
@@ -94,6 +96,31 @@ TEST(EffectKinds, AreCompleteRows) {
       one_acts_alone |= parameter.acts_alone;
     }
     EXPECT_TRUE(one_acts_alone);
+  }
+}
+
+// docs/effects.md has a row a kind, in the same order, with the same parameters, units, needs and
+// cause.
+TEST(EffectKinds, StandInTheDocumentation) {
+  std::ifstream file(HEXCAL_SOURCE "/docs/effects.md");
+  std::stringstream all;
+  all << file.rdbuf();
+  const std::string text = all.str();
+  std::size_t at = 0;
+  for (const EffectKind& kind : EffectKinds()) {
+    SCOPED_TRACE(kind.name);
+    at = text.find("\n| `" + std::string(kind.name) + "` | ", at);
+    ASSERT_NE(at, std::string::npos);
+    const std::string row = text.substr(at + 1, text.find('\n', at + 1) - at - 1);
+    EXPECT_NE(row.find("| " + std::string(kind.cause) + " |"), std::string::npos) << row;
+    for (const std::string_view need : kind.needs)
+      EXPECT_NE(row.find(need), std::string::npos) << need;
+    if (row.find("as above") != std::string::npos) continue;
+    for (const ParameterKind& parameter : kind.parameters) {
+      EXPECT_NE(row.find(parameter.name), std::string::npos) << parameter.name;
+      EXPECT_NE(row.find(parameter.unit.substr(0, parameter.unit.find(','))), std::string::npos)
+          << parameter.name;
+    }
   }
 }
 

@@ -124,15 +124,15 @@ TEST(MakeVisits, TakesRecordedLegsAsTheyAre) {
 TEST(MakeVisits, CountsTheFirstMoveFromHomeAndTheOthersFromTheVisitBefore) {
   const std::vector<Visit> visits =
       VisitsOf(UprightHexapod(),
-               {Level(0, 0, 0.21), Level(0, 0, 0.19), Level(0, 0, 0.19), Level(0, 0, 0.2)});
+               {Level(0, 0, 0.19), Level(0, 0, 0.21), Level(0, 0, 0.21), Level(0, 0, 0.2)});
   EXPECT_TRUE(MatrixNear(visits[0].home_lengths, LegLengths::Constant(0.2), 1e-16));
-  EXPECT_TRUE(MatrixNear(visits[0].last_move, LegLengths::Constant(0.01), 1e-16));
-  EXPECT_TRUE(MatrixNear(visits[1].last_move, LegLengths::Constant(-0.02), 1e-16));
+  EXPECT_TRUE(MatrixNear(visits[0].last_move, LegLengths::Constant(-0.01), 1e-16));
+  EXPECT_TRUE(MatrixNear(visits[1].last_move, LegLengths::Constant(0.02), 1e-16));
   EXPECT_EQ(visits[2].last_move, LegLengths::Zero());
-  EXPECT_EQ(visits[0].direction, Vector6d::Ones());
-  EXPECT_EQ(visits[1].direction, -Vector6d::Ones());
-  EXPECT_EQ(visits[2].direction, -Vector6d::Ones());  // it stood still
-  EXPECT_EQ(visits[3].direction, Vector6d::Ones());
+  EXPECT_EQ(visits[0].direction, -Vector6d::Ones());
+  EXPECT_EQ(visits[1].direction, Vector6d::Ones());
+  EXPECT_EQ(visits[2].direction, Vector6d::Ones());  // it stood still
+  EXPECT_EQ(visits[3].direction, -Vector6d::Ones());
 }
 
 TEST(MakeVisits, BelievesADirectionColumn) {

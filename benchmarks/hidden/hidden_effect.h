@@ -18,7 +18,7 @@ struct Additions {
   Six base_twist = Six::Zero();      // right of world_from_base, [m, rad]
   Six platform_twist = Six::Zero();  // right of base_from_platform
   Six tool_twist = Six::Zero();      // right of platform_from_tool
-  Six tracker_twist = Six::Zero();   // right of tracker_from_world
+  Six tracker_twist = Six::Zero();   // by which the tracker stands off, in its own frame
   Markers base_markers = Markers::Zero(), tool_markers = Markers::Zero();  // in W and T, m
   // What the tracker misreads of a point, m in its frame: one function an effect.
   std::vector<std::function<Eigen::Vector3d(const Eigen::Vector3d&)>> misreadings;

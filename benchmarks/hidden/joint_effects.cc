@@ -41,17 +41,11 @@ HiddenEffect PlatformJointOffset(const Scene&, const DetailOptions&, Dice* dice)
   return JointOffset("platform_joint_offset", false, dice);
 }
 
-Joints Outward(const Joints& joints) {
-  Joints outward = joints;
-  outward.row(2).setZero();
-  return outward.colwise().normalized();
-}
-
 HiddenEffect BaseRadius(const Scene&, const DetailOptions&, Dice* dice) {
   HiddenEffect effect = Named("base_radius", "constant", 4e-3, 1);
   effect.parameters *= dice->Sign();
   effect.add = [](const Scene& scene, const Row&, const Eigen::VectorXd& p, Additions* additions) {
-    additions->base += p[0] * Outward(scene.hexapod.base);
+    additions->base += p[0] * RadialAxes(scene.hexapod.base);
   };
   return effect;
 }
@@ -60,7 +54,7 @@ HiddenEffect PlatformRadius(const Scene&, const DetailOptions&, Dice* dice) {
   HiddenEffect effect = Named("platform_radius", "constant", 4e-3, 1);
   effect.parameters *= dice->Sign();
   effect.add = [](const Scene& scene, const Row&, const Eigen::VectorXd& p, Additions* additions) {
-    additions->platform += p[0] * Outward(scene.hexapod.platform);
+    additions->platform += p[0] * RadialAxes(scene.hexapod.platform);
   };
   return effect;
 }

@@ -9,9 +9,13 @@ namespace hexcal::hidden {
 using Square = Eigen::Matrix<double, 6, 6>;
 
 Joints RadialAxes(const Joints& joints) {
-  const Eigen::Vector3d centre = joints.rowwise().mean();
-  Joints axes = joints.colwise() - centre;
-  axes.row(2).setZero();
+  const Joints spread = joints.colwise() - joints.rowwise().mean();
+  // The plate z = slope' (x, y), least squares along z: plates lie nearly level in their frames.
+  const Eigen::Matrix<double, 6, 2> flat = spread.topRows<2>().transpose();
+  const Eigen::Vector2d slope = Eigen::Matrix2d(flat.transpose() * flat).inverse() *
+                                (flat.transpose() * spread.row(2).transpose());
+  const Eigen::Vector3d normal = Eigen::Vector3d(-slope[0], -slope[1], 1).normalized();
+  const Joints axes = spread - normal * (normal.transpose() * spread);
   return axes.colwise().normalized();
 }
 

@@ -13,7 +13,8 @@ struct Hexapod {
   Joints base_axes, platform_axes;  // likewise
 };
 
-// Unit vectors from the centroid of the plate to its joints, in the plate: the default first axes.
+// Unit vectors from the centroid of the plate to its joints, in the plate: where a radius grows to,
+// and the default first axes.
 Joints RadialAxes(const Joints& joints);
 
 // Joint centre to joint centre, m.

@@ -35,7 +35,8 @@ Reading TrueReading(const Scene& scene,
                     const Additions& additions,
                     const Six& slip) {
   const Motion platform = Moved(TruePlatform(scene, row, additions), slip);
-  const Motion tracker_from_world = Moved(row.tracker_from_world, additions.tracker_twist);
+  const Motion stand_from_tracker = Inverse(Moved(Motion(), additions.tracker_twist));
+  const Motion tracker_from_world = stand_from_tracker * row.tracker_from_world;
   const Motion tracker_from_tool = tracker_from_world * ToolIn(scene, platform, additions);
   const Markers base = scene.base_markers + additions.base_markers;
   const Markers tool = scene.tool_markers + additions.tool_markers;
