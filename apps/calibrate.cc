@@ -16,6 +16,7 @@
 #include "apps/progress.h"
 #include "apps/record_of.h"
 #include "config/input_error.h"
+#include "estimator/calibrate_grown.h"
 #include "estimator/calibrate_markers.h"
 #include "model/machine.h"
 #include "report/result_table.h"
@@ -38,6 +39,7 @@ struct Job {
 // What came of a dataset: an estimate, or why there is none.
 struct Outcome {
   std::optional<Estimate> estimate;
+  std::optional<Machine> grown;  // of a model with effects
   std::string refusal;
   double seconds = 0.0;
 };
@@ -45,7 +47,11 @@ struct Outcome {
 class CalibrateRun {
  public:
   explicit CalibrateRun(const std::vector<std::string>& files)
-      : files_(files), options_(CalibrateOptionsFromFlags()), threads_(ThreadsFor(FLAGS_threads)) {}
+      : files_(files), options_(CalibrateOptionsFromFlags()), threads_(ThreadsFor(FLAGS_threads)) {
+    if (FLAGS_model.empty()) return;
+    model_ = ReadMachine(FLAGS_model);
+    if (HasEffects()) RequireOptionsForEffects(options_);
+  }
 
   int Run() {
     OpenAll();
@@ -95,15 +101,42 @@ class CalibrateRun {
     RequireDistinctNames(names);
     for (Dataset& dataset : datasets) {
       OutputFolder folder(
-          FLAGS_out, dataset.name, ResultFiles(), InputFiles(dataset, ""), FLAGS_force);
+          FLAGS_out, dataset.name, ResultFiles(), InputFiles(dataset, FLAGS_model), FLAGS_force);
       jobs_.push_back({std::move(dataset), std::move(folder)});
     }
+  }
+
+  bool HasEffects() const { return !model_.effects.empty() || model_.pose_map.has_value(); }
+  bool IsByMarkersHere(const Dataset& dataset) const {
+    return !HasEffects() && IsByMarkers(dataset, options_);
   }
 
   // The paper's problem has nothing to do with the noise: nothing is certified of it.
   bool IsByEqualWeights() const {
     return options_.solver == Solver::kLinearized &&
            options_.linearized.error == LinearizedOptions::Error::kPaper;
+  }
+
+  void EstimateWithEffects(const Dataset& dataset, Outcome* outcome) const {
+    GrownCalibration grown = CalibrateGrown(dataset, model_, options_);
+    outcome->estimate = std::move(grown.estimate);
+    outcome->grown = std::move(grown.machine);
+  }
+
+  void EstimateMounts(const Dataset& dataset,
+                      const std::optional<BaseAndTool>& initial,
+                      Outcome* outcome) const {
+    const Observations observations = MakeObservations(dataset);
+    outcome->estimate =
+        IsByMarkers(dataset, options_)
+            ? CalibrateMarkers(
+                  observations, MakeMarkerObservations(dataset, observations), initial, options_)
+            : Calibrate(observations, initial, options_);
+    if (!IsByEqualWeights())
+      outcome->estimate->certificate =
+          Certify(observations,
+                  LevelsOf(observations, options_.noise, *outcome->estimate),
+                  *outcome->estimate);
   }
 
   Outcome Work(const Dataset& dataset) const {
@@ -116,17 +149,10 @@ class CalibrateRun {
       if (options_.start == Start::kInitial && !initial)
         throw InputError(
             FileLocation(dataset.path), "no key 'initial'", "a first guess for --start=initial");
-      const Observations observations = MakeObservations(dataset);
-      outcome.estimate =
-          IsByMarkers(dataset, options_)
-              ? CalibrateMarkers(
-                    observations, MakeMarkerObservations(dataset, observations), initial, options_)
-              : Calibrate(observations, initial, options_);
-      if (!IsByEqualWeights())
-        outcome.estimate->certificate =
-            Certify(observations,
-                    LevelsOf(observations, options_.noise, *outcome.estimate),
-                    *outcome.estimate);
+      if (HasEffects())
+        EstimateWithEffects(dataset, &outcome);
+      else
+        EstimateMounts(dataset, initial, &outcome);
     } catch (const InputError& error) {
       outcome.refusal = error.what();
     }
@@ -135,32 +161,40 @@ class CalibrateRun {
     return outcome;
   }
 
+  static Machine MachineOf(const Job& job, const Estimate& estimate) {
+    Machine machine{job.dataset.name,
+                    estimate.mounts.world_from_base,
+                    estimate.mounts.platform_from_tool,
+                    {},
+                    job.dataset.hexapod};
+    if (estimate.tracker_from_world)
+      machine.world_from_tracker = estimate.tracker_from_world->Inverse();
+    return machine;
+  }
+
   void Finish(Job* job, const Outcome& outcome) {
     if (!outcome.estimate) return Refuse(InputError(outcome.refusal));
     const Estimate& estimate = *outcome.estimate;
     const ResultHeader header =
-        HeaderOf(job->dataset.name, options_, IsByMarkers(job->dataset, options_));
-    Machine machine{job->dataset.name,
-                    estimate.mounts.world_from_base,
-                    estimate.mounts.platform_from_tool,
-                    {},
-                    job->dataset.hexapod};
-    if (estimate.tracker_from_world)
-      machine.world_from_tracker = estimate.tracker_from_world->Inverse();
+        HeaderOf(job->dataset.name, options_, IsByMarkersHere(job->dataset));
+    const Machine machine = outcome.grown ? *outcome.grown : MachineOf(*job, estimate);
     job->folder.Write("model.yaml", WriteMachine(machine));
     job->folder.Write("run.json",
                       RunJson(RecordOf("calibrate", job->dataset, outcome.seconds, threads_)));
-    job->folder.Write("result.json", ResultJson(header, estimate));
+    job->folder.Write("result.json", ResultJson(header, estimate, machine.effects));
     if (!estimate.IsTrustworthy()) ++untrusted_;
     PrintNewWarnings(job->dataset, estimate.warnings, "result.json");
-    Print(*job, header, estimate);
+    Print(*job, header, estimate, machine.effects);
   }
 
-  static void Print(const Job& job, const ResultHeader& header, const Estimate& estimate) {
+  static void Print(const Job& job,
+                    const ResultHeader& header,
+                    const Estimate& estimate,
+                    const std::vector<Effect>& effects) {
     if (FLAGS_quiet) return;
     Progress::ClearVisible();
     if (FLAGS_json)
-      fmt::print("{}\n", ResultJsonLine(header, estimate));
+      fmt::print("{}\n", ResultJsonLine(header, estimate, effects));
     else
       fmt::print("{}  written to     {}\n\n", ResultTable(header, estimate), job.folder.path());
   }
@@ -168,6 +202,7 @@ class CalibrateRun {
   const std::vector<std::string>& files_;
   CalibrateOptions options_;
   int threads_;
+  Machine model_;  // whose effects are estimated; empty without --model
   std::vector<Job> jobs_;
   int failed_ = 0;
   int untrusted_ = 0;

@@ -102,6 +102,15 @@ bool IsByMarkers(const Dataset& dataset, const CalibrateOptions& options) {
          !IsRobust(options);
 }
 
+void RequireOptionsForEffects(const CalibrateOptions& options) {
+  const bool is_plain = options.solver == Solver::kNonlinear && !IsRobust(options) &&
+                        options.outliers == OutlierHandling::kKeep && FLAGS_residual != "marker";
+  if (!is_plain)
+    throw UsageError(
+        "a --model with effects goes with --solver=nonlinear, --residual=pose, --loss=none, "
+        "--covariance=model and --outliers=keep only");
+}
+
 ResultHeader HeaderOf(const std::string& dataset,
                       const CalibrateOptions& options,
                       bool by_markers) {

@@ -14,6 +14,9 @@ CalibrateOptions CalibrateOptionsFromFlags();
 // asks for what the dataset or the solver does not have.
 bool IsByMarkers(const Dataset& dataset, const CalibrateOptions& options);
 
+// UsageError for options that a model with effects leaves no room for.
+void RequireOptionsForEffects(const CalibrateOptions& options);
+
 // What a result of these options says of how it was made.
 ResultHeader HeaderOf(const std::string& dataset, const CalibrateOptions& options, bool by_markers);
 

@@ -25,6 +25,7 @@ const Command kCalibrate = {
     "mounts. Exit status 4: there are results, but the data do not determine all 12 parameters or "
     "the solver did not converge.",
     {{"out", true, "DIR", "The results of a dataset go to DIR/<name>/."},
+     {"model", false, {}, "A model whose effects are estimated along with base and tool."},
      {"solver"},
      {"residual"},
      {"start"},
@@ -117,8 +118,9 @@ const Command kPredict = {
     1,
     1,
     "Reads the poses that the robot reported (robot_poses) and writes, for each, the pose of the "
-    "tool in the world by the model: T_T^W = T_B^W T_A^B T_T^A. The dataset needs no measurement. "
-    "The table has the columns pose,x,y,z,qw,qx,qy,qz, in m, the quaternion's scalar first.",
+    "tool in the world by the model: T_T^W = T_B^W T_A^B T_T^A, with the model's effects of the "
+    "robot and its mounts. The dataset needs no measurement. The table has the columns "
+    "pose,x,y,z,qw,qx,qy,qz, in m, the quaternion's scalar first.",
     {{"model", true},
      {"out", true, "FILE.csv", "The table to write."},
      {"config"},

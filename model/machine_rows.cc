@@ -42,6 +42,19 @@ void RequireMarkers(const Dataset& dataset, const Effect& effect) {
   }
 }
 
+// Of a description that stands in for an effect without a name.
+void RequireDriver(const Dataset& dataset, const Drivers& drivers, const Effect& unknown) {
+  const auto driver = unknown.found.find("driver");
+  if (driver == unknown.found.end() || unknown.parameters.size() == 0) return;
+  if (driver->second == "temperature" && !drivers.temperature)
+    ThrowLacks(dataset, unknown, "a temperature column");
+  if (driver->second == "payload" && !drivers.payload)
+    ThrowLacks(dataset, unknown, "a payload column");
+  const bool is_of_legs = driver->second == "leg_length" || unknown.found.at("site") == "leg";
+  if (is_of_legs && !drivers.legs)
+    ThrowLacks(dataset, unknown, "a hexapod with base_joints and platform_joints");
+}
+
 void RequireDrivers(const Dataset& dataset,
                     const HexapodGeometry* hexapod,
                     const std::vector<Effect>& effects) {
@@ -50,7 +63,10 @@ void RequireDrivers(const Dataset& dataset,
   drivers.order = true;  // one row alone comes from the centre of the travel
   for (const Effect& effect : effects) {
     const EffectKind* kind = FindEffectKind(effect.name);
-    if (kind == nullptr) continue;
+    if (kind == nullptr) {
+      RequireDriver(dataset, drivers, effect);
+      continue;
+    }
     const std::string missing = MissingFor(*kind, drivers);
     if (!missing.empty()) ThrowLacks(dataset, effect, missing);
     const auto is_row = effect.reference.find("time_is_row");

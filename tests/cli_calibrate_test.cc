@@ -106,6 +106,36 @@ TEST_F(CliCalibrate, TheModelGoesBackIn) {
   EXPECT_EQ(Call(predict).status, 0);
 }
 
+TEST_F(CliCalibrate, RefitsTheEffectsOfAModel) {
+  const std::string effect = "effects:\n  - {name: tracker_scale, parameters: {scale: ";
+  folder.Write("m.yaml", std::string(kModel) + effect + "0.0005}}\n");
+  std::string text = DatasetText("scaled", kGoodRows);
+  const std::string noise = "{position: 0.0001, orientation: 0.001}";
+  text.replace(text.find(noise), noise.size(), "{position: 1e-6, orientation: 1e-5}");
+  folder.Write("d.yaml", text);
+  ASSERT_EQ(Call({"simulate", "d.yaml", "--model=m.yaml", "--out=data", "--quiet"}).status, 0);
+  folder.Write("stale.yaml", std::string(kModel) + effect + "0.0002}}\n");
+  const ProgramResult result = Calibrate({"--model=stale.yaml", "--out=out"}, "scaled");
+  EXPECT_EQ(result.status, 0) << result.err;
+  const Machine found = ReadMachine(folder.Path("out/scaled/model.yaml"));
+  ASSERT_EQ(found.effects.size(), 1U);
+  const double sigma = found.effects[0].standard_deviation[0];
+  EXPECT_GT(sigma, 0.0);
+  EXPECT_LT(sigma, 5e-5);
+  EXPECT_NEAR(found.effects[0].parameters[0], 5e-4, 4 * sigma);
+  const nlohmann::json json = nlohmann::json::parse(Result("out/scaled"));
+  EXPECT_EQ(json["effects"][0]["name"], "tracker_scale");
+  EXPECT_EQ(json["effects"][0]["parameters"]["scale"], found.effects[0].parameters[0]);
+}
+
+TEST_F(CliCalibrate, AModelWithEffectsGoesWithThePlainMethodOnly) {
+  folder.Write(
+      "grown.yaml",
+      std::string(kModel) + "effects:\n  - {name: tracker_scale, parameters: {scale: 0.001}}\n");
+  for (const char* flag : {"--loss=huber", "--solver=linearized", "--outliers=reject"})
+    EXPECT_EQ(Calibrate({"--model=grown.yaml", "--out=out", flag}).status, 2) << flag;
+}
+
 // Markers of a tracker that stood still: the model also says where it stood, by either residual.
 TEST_F(CliCalibrate, AStaticTrackersPlaceIsInTheModel) {
   folder.Write(
