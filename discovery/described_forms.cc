@@ -12,7 +12,7 @@ namespace {
 
 // ln of how much less likely a description is beforehand than a name: effects of the table are
 // nine in ten of what is met, and there are more descriptions than names.
-constexpr double kLogPrior = -3.0;
+constexpr double kLogPrior = -5.0;
 constexpr double kShift = 1e-4, kTurn = 2e-4, kLeg = 3e-5;  // prior 1-sigma, m and rad
 
 struct Named {
@@ -97,6 +97,7 @@ void AddFamily(const std::string& site,
 // is smooth in the pose but has no form of its own.
 void AddPoseMaps(const std::vector<Visit>& visits,
                  const std::vector<int>& rows,
+                 bool is_last_resort,
                  FormLibrary* library) {
   PoseMap map;
   std::vector<Pose3d> poses;
@@ -110,7 +111,7 @@ void AddPoseMaps(const std::vector<Visit>& visits,
   map.centre = 0.5 * (least + most);
   map.half_width = 0.5 * (most - least);
   const int family = static_cast<int>(library->families.size());
-  library->families.push_back({"platform by pose", kLogPrior, true});
+  library->families.push_back({"platform by pose", kLogPrior, true, is_last_resort});
   for (const int degree : {2, 1}) {
     map.degree = degree;
     const int terms = PoseMapTermCount(degree) - 1;
@@ -147,7 +148,8 @@ void AddDescribedForms(const Dataset& dataset,
     }
     if (drivers.legs) AddFamily("leg", driver, centre, half_range, library);
   }
-  AddPoseMaps(visits, rows, library);
+  // Where legs are known a cause in the legs or joints is sought first.
+  AddPoseMaps(visits, rows, drivers.legs, library);
 }
 
 }  // namespace hexcal

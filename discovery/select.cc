@@ -27,7 +27,7 @@ class Selector {
       if (options_.progress) options_.progress(step);
       if (!Step(step)) break;
       if (result_.chosen.size() > 1) {
-        if (result_.chosen.size() == 2) TryOtherPairs();
+        if (result_.chosen.size() == 2 && !HasLastResort()) TryOtherPairs();
         ChooseAnew();
         if (!DropNeedless()) break;
       }
@@ -52,8 +52,9 @@ class Selector {
     for (int round = 0; round < kNoiseRounds; ++round) {
       scorer.emplace(given, noise);
       const std::vector<FamilyScore> families = scorer->Families();
-      if (families.empty() || families[0].best.form == best) break;
-      best = families[0].best.form;
+      const int first = FirstOf(families, [](std::size_t) { return true; });
+      if (first < 0 || families[first].best.form == best) break;
+      best = families[first].best.form;
       std::vector<int> with = chosen;
       with.push_back(best);
       noise = NoiseWith(with);
@@ -90,11 +91,19 @@ class Selector {
     if (p_values.empty()) return -1;
     step->p_value = *std::min_element(p_values.begin(), p_values.end());
     if (step->p_value > alpha) return -1;
-    for (std::size_t k = 0; k < p_values.size(); ++k)
-      if (p_values[k] <= alpha && step->families[k].evidence > 0.0) {
-        step->p_value = p_values[k];
-        return static_cast<int>(k);
-      }
+    const int best = FirstOf(step->families, [&](std::size_t k) { return p_values[k] <= alpha; });
+    if (best >= 0) step->p_value = p_values[best];
+    return best;
+  }
+
+  // The first family that passes; one of last resort only where no other does.
+  template <typename Passes>
+  int FirstOf(const std::vector<FamilyScore>& families, const Passes& passes) const {
+    for (const bool last_resort : {false, true})
+      for (std::size_t k = 0; k < families.size(); ++k)
+        if (problem_.families[families[k].family].is_last_resort == last_resort &&
+            families[k].evidence > 0.0 && passes(k))
+          return static_cast<int>(k);
     return -1;
   }
 
@@ -113,12 +122,10 @@ class Selector {
   }
 
   int GateByThresholds(int number, SelectionStep* step) const {
-    for (std::size_t k = 0; k < step->families.size(); ++k) {
+    return FirstOf(step->families, [&](std::size_t k) {
       const FamilyScore& family = step->families[k];
-      const double needed = options_.thresholds[family.family] + number * std::log10(2.0);
-      if (-family.log10_p >= needed && family.evidence > 0.0) return static_cast<int>(k);
-    }
-    return -1;
+      return -family.log10_p >= options_.thresholds[family.family] + number * std::log10(2.0);
+    });
   }
 
   // A pair may explain more than the best single form and the best to go with it.
@@ -130,17 +137,25 @@ class Selector {
     std::vector<int> best = result_.chosen;
     int tried = 0;
     for (const FamilyScore& first : firsts) {
+      if (problem_.families[first.family].is_last_resort) continue;
       const bool is_present = first.best.form == result_.chosen[0];
       if (!is_present && (tried >= kBeam || first.evidence < firsts[0].evidence - kBeamDepth))
         continue;
       ++tried;
       const Scorer given(problem_.With({first.best.form}), noise);
       const std::vector<FamilyScore> seconds = given.Families();
-      if (seconds.empty()) continue;
-      const double joint = first.evidence + seconds[0].evidence;
-      if (joint > most) most = joint, best = {first.best.form, seconds[0].best.form};
+      const int second = FirstOf(seconds, [](std::size_t) { return true; });
+      if (second < 0 || problem_.families[seconds[second].family].is_last_resort) continue;
+      const double joint = first.evidence + seconds[second].evidence;
+      if (joint > most) most = joint, best = {first.best.form, seconds[second].best.form};
     }
     result_.chosen = best;
+  }
+
+  bool HasLastResort() const {
+    return std::any_of(result_.chosen.begin(), result_.chosen.end(), [&](int form) {
+      return problem_.families[problem_.forms[form].family].is_last_resort;
+    });
   }
 
   std::vector<int> Without(std::size_t k) const {
