@@ -10,9 +10,9 @@
 namespace hexcal {
 namespace {
 
-// ln of how much less likely a description is beforehand than a name: effects of the table are
-// nine in ten of what is met, and there are more descriptions than names.
-constexpr double kLogPrior = -5.0;
+// ln of how much less likely a description is beforehand than a name: there are many of them, each
+// of them bends to much, and a name that explains nearly as much says more.
+constexpr double kLogPrior = -7.0;
 constexpr double kShift = 1e-4, kTurn = 2e-4, kLeg = 3e-5;  // prior 1-sigma, m and rad
 
 struct Named {

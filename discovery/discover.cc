@@ -88,6 +88,10 @@ class Discoverer {
     options.seed = options_.seed;
     options.progress = [this](int step) { Report("search", step, options_.most_effects + 1); };
     selection_ = Select(problem_.linear, problem_.trend, options);
+    if (options_.folds < 2) {
+      held_.after_steps.assign(selection_.chosen.size() + 1, 0.0);
+      return;
+    }
     held_ = HoldOut(problem_.linear,
                     problem_.trend,
                     selection_,

@@ -13,7 +13,7 @@ namespace hexcal {
 struct DiscoverOptions {
   double alpha = 0.01;   // chance of a name for data that need none
   int bootstraps = 999;  // draws for the family-wise p-value; at least 99
-  int folds = 5;         // of the held-out test
+  int folds = 5;         // of the held-out test; below 2: not done
   int most_effects = 4;
   std::optional<NoiseLevels> noise = {};  // in place of one that is not stated
   std::uint64_t seed = 1;

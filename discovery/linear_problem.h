@@ -23,7 +23,7 @@ struct Form {
 
 struct Family {
   std::string name;
-  double log_prior = 0.0;     // against the other families
+  double log_prior = 0.0;       // against the other families
   bool is_described = false;    // a description (site, driver, shape) under no name of its own
   bool is_last_resort = false;  // so wide that it explains whatever others do: taken only where no
                                 // other is good enough
