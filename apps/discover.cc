@@ -14,8 +14,10 @@
 #include "apps/record_of.h"
 #include "apps/stage_bars.h"
 #include "discovery/discover.h"
+#include "report/discovery_html.h"
 #include "report/discovery_json.h"
 #include "report/discovery_table.h"
+#include "report/html/page.h"
 #include "report/result_json.h"
 
 namespace hexcal {
@@ -62,7 +64,8 @@ int RunDiscover(const std::vector<std::string>& files) {
                       {{"discovery.json", std::string(kDiscoveryMark)},
                        {"result.json", std::string(kResultMark)},
                        {"model.yaml", std::string(kModelMark)},
-                       {"run.json", std::string(kRunMark)}},
+                       {"run.json", std::string(kRunMark)},
+                       {"report.html", HtmlPage::Mark("discover")}},
                       InputFiles(dataset, ""),
                       FLAGS_force);
   const DiscoverOptions options = OptionsFromFlags();
@@ -74,6 +77,7 @@ int RunDiscover(const std::vector<std::string>& files) {
   folder.Write("run.json", RunJson(record));
   folder.Write("result.json",
                ResultJson(HeaderOfModel(dataset), discovery.estimate, EffectsOf(discovery)));
+  folder.Write("report.html", DiscoveryHtml(dataset.name, record, discovery));
   folder.Write("discovery.json", DiscoveryJson(dataset.name, options, discovery));
   PrintNewWarnings(dataset, discovery.warnings, "discovery.json");
   if (FLAGS_json && !FLAGS_quiet)

@@ -26,12 +26,12 @@ struct ProgramRun {
   std::string out = {};  // a file for stdout, in place of ProgramResult::out
 };
 
-// Runs the built hexcal without standard input and waits for its end.
-inline ProgramResult RunHexcal(const ProgramRun& run) {
+// Runs a program without standard input and waits for its end.
+inline ProgramResult RunProgram(const std::string& program, const ProgramRun& run) {
   const TemporaryFolder logs;
   const std::string out = run.out.empty() ? logs.Write("out", "") : run.out;
   const std::string err = logs.Write("err", "");
-  std::vector<char*> argv = {const_cast<char*>(HEXCAL_PROGRAM)};
+  std::vector<char*> argv = {const_cast<char*>(program.c_str())};
   for (const std::string& argument : run.arguments)
     argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -43,7 +43,7 @@ inline ProgramResult RunHexcal(const ProgramRun& run) {
                        dup2(open("/dev/null", O_RDONLY), STDIN_FILENO) >= 0 &&
                        dup2(open(out.c_str(), O_WRONLY), STDOUT_FILENO) >= 0 &&
                        dup2(open(err.c_str(), O_WRONLY), STDERR_FILENO) >= 0;
-    if (ready) execv(HEXCAL_PROGRAM, argv.data());
+    if (ready) execv(program.c_str(), argv.data());
     _exit(127);
   }
   int status = 0;
@@ -54,5 +54,10 @@ inline ProgramResult RunHexcal(const ProgramRun& run) {
   result.err = logs.Read("err");
   return result;
 }
+
+#ifdef HEXCAL_PROGRAM
+// The built hexcal.
+inline ProgramResult RunHexcal(const ProgramRun& run) { return RunProgram(HEXCAL_PROGRAM, run); }
+#endif
 
 }  // namespace hexcal::testing

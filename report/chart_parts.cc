@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/chart_parts.h"
+
+#include <fmt/format.h>
+
+#include "report/html/escape.h"
+
+namespace hexcal {
+
+using Json = nlohmann::ordered_json;
+
+Json Axis(const std::string& title, bool from_zero) {
+  Json axis = {{"title", {{"text", title}, {"standoff", 6}}}};
+  if (from_zero) axis["rangemode"] = "tozero";
+  return axis;
+}
+
+Json OpenAxis(const std::string& title) {
+  Json axis = Axis(title, false);
+  axis["zeroline"] = false;
+  return axis;
+}
+
+std::string AxisKey(const std::string& axis, int panel) {
+  return panel == 1 ? axis : fmt::format("{}{}", axis, panel);
+}
+
+Json DotTrace(
+    const char* name, const Json& x, const Json& y, const Json& labels, bool is_before, int panel) {
+  return {{"type", "scatter"},
+          {"mode", "markers"},
+          {"name", name},
+          {"x", x},
+          {"y", y},
+          {"text", labels},
+          {"legendgroup", name},
+          {"showlegend", panel == 1},
+          {"xaxis", AxisKey("x", panel)},
+          {"yaxis", AxisKey("y", panel)},
+          {"marker",
+           {{"color", is_before ? "@before" : "@after"},
+            {"symbol", is_before ? "circle-open" : "circle"},
+            {"size", is_before ? 7 : 6}}}};
+}
+
+Json Level(const char* name, double y, const char* colour) {
+  return {{"type", "line"},
+          {"xref", "paper"},
+          {"x0", 0},
+          {"x1", 1},
+          {"y0", y},
+          {"y1", y},
+          {"name", name},
+          {"showlegend", true},
+          {"line", {{"color", colour}, {"dash", "dash"}, {"width", 2}}}};
+}
+
+Json DivergingColours(double largest, const char* unit) {
+  const double end = largest > 0.0 ? largest : 1.0;
+  Json scale = Json::array();
+  scale.push_back(Json::array({0.0, "@low"}));
+  scale.push_back(Json::array({0.5, "@middle"}));
+  scale.push_back(Json::array({1.0, "@high"}));
+  return {{"cmin", -end},
+          {"cmax", end},
+          {"colorscale", scale},
+          {"colorbar", {{"title", {{"text", unit}}}, {"thickness", 12}}}};
+}
+
+Json OrderOf(std::size_t count) {
+  Json list = Json::array();
+  for (std::size_t i = 1; i <= count; ++i) list.push_back(i);
+  return list;
+}
+
+Json LabelsOf(const std::vector<PoseGap>& poses) {
+  Json list = Json::array();
+  for (const PoseGap& pose : poses) list.push_back(EscapeLabel(pose.label));
+  return list;
+}
+
+}  // namespace hexcal

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "discovery/discovery.h"
+
+namespace hexcal {
+
+// Pieces of plotly.js charts.
+
+// An axis with a title; from_zero: zero is in its range.
+nlohmann::ordered_json Axis(const std::string& title, bool from_zero);
+
+// One without a line at zero, for lengths and counts.
+nlohmann::ordered_json OpenAxis(const std::string& title);
+
+// "xaxis" of the first panel, "xaxis2" of the second...
+std::string AxisKey(const std::string& axis, int panel);
+
+// Dots in a panel: hollow and pale before, full after. The legend shows those of the first panel.
+nlohmann::ordered_json DotTrace(const char* name,
+                                const nlohmann::ordered_json& x,
+                                const nlohmann::ordered_json& y,
+                                const nlohmann::ordered_json& labels,
+                                bool is_before,
+                                int panel);
+
+// A dashed level across the picture, for "shapes" of a layout.
+nlohmann::ordered_json Level(const char* name, double y, const char* colour);
+
+// A colour axis from -largest to largest, pale at zero.
+nlohmann::ordered_json DivergingColours(double largest, const char* unit);
+
+nlohmann::ordered_json OrderOf(std::size_t count);  // 1, 2, 3...
+nlohmann::ordered_json LabelsOf(const std::vector<PoseGap>& poses);
+
+}  // namespace hexcal

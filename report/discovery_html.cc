@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/discovery_html.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/discovery_charts.h"
+#include "report/discovery_words.h"
+#include "report/effect_numbers.h"
+#include "report/html/page.h"
+#include "report/quantity.h"
+#include "report/residual_charts.h"
+
+namespace hexcal {
+namespace {
+
+Tone ToneOf(Verdict verdict) {
+  if (verdict == Verdict::kUndecided) return Tone::kBad;
+  return verdict == Verdict::kPartlyExplained ? Tone::kWarn : Tone::kGood;
+}
+
+void AddVerdict(const Discovery& discovery, HtmlPage* page) {
+  page->Verdict(
+      ToneOf(discovery.verdict), "verdict", NameOf(discovery.verdict), VerdictSentence(discovery));
+  page->Paragraph(VerdictMeaning(discovery.verdict));
+}
+
+HtmlTable SizeTable(const DiscoveredEffect& found) {
+  HtmlTable table = {{{"parameter"}, {"of"}, {"size ± one standard deviation", true}}, {}};
+  for (const auto& [what, words] : found.effect.found) table.rows.push_back({what, "", words});
+  for (const EffectParameter& parameter : ParametersOf(found.effect, found.labels))
+    for (const EffectNumber& number : parameter.numbers)
+      if (number.is_carried)
+        table.rows.push_back({parameter.name,
+                              number.part,
+                              QuantityText(number.value, number.standard_deviation, number.unit)});
+  return table;
+}
+
+void AddFound(const DiscoveredEffect& found, std::size_t number, HtmlPage* page) {
+  page->Heading(fmt::format("{}. {} — {}", number, found.effect.name, CarriersOf(found)));
+  if (!found.description.empty()) page->Paragraph(found.description);
+  if (const EffectKind* kind = FindEffectKind(found.effect.name))
+    page->Note(std::string(kind->cause));
+  page->Paragraph(
+      fmt::format("Acts at: {}. Follows: {}. Shape: {}. Probability that so much appears by chance "
+                  "in the whole "
+                  "search: {}. Up to here, {} of the held-out position gap is closed.",
+                  found.site,
+                  found.driver,
+                  found.shape,
+                  ProbabilityText(found.p_value),
+                  ShareText(found.gap_closed)));
+  const HtmlTable sizes = SizeTable(found);
+  if (!sizes.rows.empty()) page->Table(sizes);
+  const std::vector<Chart> charts = SizeCharts(found);
+  if (!charts.empty()) page->Figures(charts);
+  if (found.could_also_be.empty()) return;
+  page->Paragraph("These data cannot tell it from:");
+  HtmlTable rivals = {{{"could also be"}, {"why, and what would tell them apart"}}, {}};
+  for (const Rival& rival : found.could_also_be) rivals.rows.push_back({rival.name, rival.why});
+  page->Table(rivals);
+}
+
+void AddEffects(const Discovery& discovery, HtmlPage* page) {
+  page->Section("What was found");
+  if (discovery.effects.empty()) page->Paragraph("No effect was added to base and tool.");
+  for (std::size_t i = 0; i < discovery.effects.size(); ++i)
+    AddFound(discovery.effects[i], i + 1, page);
+}
+
+void AddGap(const Discovery& discovery, HtmlPage* page) {
+  page->Section("The gap, before and after");
+  page->Figures(GapCharts(discovery.gap));
+  HtmlTable table = {{{""},
+                      {"RMS position, mm", true},
+                      {"RMS orientation, mrad", true},
+                      {"chi-square", true},
+                      {"degrees of freedom", true}},
+                     {}};
+  const auto row = [&](const char* what, const GapSize& size) {
+    if (!IsKnown(size)) return;
+    const bool has_test = size.degrees_of_freedom > 0;
+    table.rows.push_back({what,
+                          fmt::format("{:.4f}", 1e3 * size.rms_position),
+                          fmt::format("{:.4f}", 1e3 * size.rms_orientation),
+                          has_test ? fmt::format("{:.1f}", size.chi_square) : "",
+                          has_test ? fmt::format("{}", size.degrees_of_freedom) : ""});
+  };
+  row("before, on the data", discovery.gap.before);
+  row("after, on the data", discovery.gap.after);
+  row("before, held out", discovery.gap.heldout_before);
+  row("after, held out", discovery.gap.heldout_after);
+  row("noise floor", discovery.gap.noise_floor);
+  page->Table(table);
+  page->Note(
+      "Held out: each pose was predicted by a model that was searched for and fitted without it. "
+      "Noise floor: what the noise of the measurement and of the parameters would leave of a model "
+      "that lacks nothing.");
+}
+
+void AddResiduals(const Discovery& discovery, HtmlPage* page) {
+  const std::vector<Chart> residuals = ResidualCharts(discovery.poses);
+  if (residuals.empty()) return;
+  page->Section("What is left over");
+  page->Figures(residuals);
+  const std::vector<Chart> legs = LegCharts(discovery.poses);
+  if (legs.empty())
+    page->Note("The legs' geometry is not known: there are no pictures in leg space.");
+  else
+    page->Figures(legs);
+}
+
+void AddSteps(const Discovery& discovery, HtmlPage* page) {
+  if (discovery.steps.empty()) return;
+  page->Section("How it was found");
+  const Chart steps = StepChart(discovery);
+  if (discovery.effects.empty())
+    page->Table(steps.table);
+  else
+    page->Figure(steps);
+  std::vector<Chart> rankings;
+  for (std::size_t i = 0; i < discovery.steps.size(); ++i)
+    if (!discovery.steps[i].candidates.empty())
+      rankings.push_back(RankingChart(discovery.steps[i], i + 1));
+  page->Figures(rankings);
+}
+
+void AddWhere(const Where& where, HtmlPage* page) {
+  constexpr std::size_t kMostRows = 12;
+  page->Section("Where base and tool alone disagree");
+  page->Note(
+      "p: the probability of as much by chance, corrected for the length of its list. Share: of "
+      "the disagreement beyond noise that it holds. The smallest p first.");
+  const auto list = [page](const char* heading, std::vector<WhereItem> items) {
+    if (items.empty()) return;
+    std::stable_sort(items.begin(), items.end(), [](const WhereItem& a, const WhereItem& b) {
+      return a.p_value < b.p_value;
+    });
+    page->Heading(heading);
+    HtmlTable table = {{{"where"}, {"p", true}, {"share", true}}, {}};
+    for (const WhereItem& item : items) {
+      if (table.rows.size() == kMostRows) break;
+      table.rows.push_back({item.what, ProbabilityText(item.p_value), ShareText(item.share)});
+    }
+    page->Table(table);
+    if (items.size() > kMostRows)
+      page->Note(fmt::format("{} more, in discovery.json.", items.size() - kMostRows));
+  };
+  list("By frame of origin", where.sites);
+  list("By what it follows", where.covariates);
+  list("By leg", where.legs);
+  list("By axis", where.axes);
+  list("By pose", where.poses);
+}
+
+void AddNoise(const Discovery& discovery, HtmlPage* page) {
+  page->Section("Noise");
+  const std::vector<std::string> found = NoiseSentences(discovery.noise);
+  if (found.empty())
+    page->Paragraph("The noise is what the dataset states.");
+  else
+    page->List(found);
+  const NoiseSummary& noise = discovery.estimate.noise;
+  page->Paragraph(fmt::format("The final model's measured poses have {} and {} a coordinate ({}).",
+                              SizeText(noise.position, "m"),
+                              SizeText(noise.orientation, "rad"),
+                              noise.estimated ? "estimated" : "as stated"));
+}
+
+void AddLimits(const Discovery& discovery, HtmlPage* page) {
+  page->Section("What could not be seen");
+  if (!discovery.not_testable.empty()) {
+    page->Heading("Not testable with these data");
+    HtmlTable table = {{{"effect"}, {"needs"}}, {}};
+    for (const NotTestable& effect : discovery.not_testable)
+      table.rows.push_back({effect.name, effect.needs});
+    page->Table(table);
+  }
+  if (discovery.detectable.empty()) return;
+  page->Heading("The smallest size that would be found");
+  page->Note("In four data sets of five like this one; smaller effects may be there unseen.");
+  HtmlTable table = {{{"effect"}, {"smallest", true}}, {}};
+  for (const Detectable& effect : discovery.detectable)
+    table.rows.push_back(
+        {NameWithIndex(effect.name, effect.index), SizeText(effect.smallest, effect.unit)});
+  page->Table(table);
+}
+
+void AddReproduce(const RunRecord& record, HtmlPage* page) {
+  page->Section("How to reproduce");
+  page->Paragraph(
+      "The same build, input and seed give the same result.json, model.yaml and discovery.json, "
+      "which lie beside this report and have every number of it.");
+  HtmlTable settings = {{{"setting"}, {"value"}}, {}};
+  for (const auto& [name, value] : record.settings)
+    if (!value.empty()) settings.rows.push_back({name, value});
+  page->Table(settings);
+  page->Heading("Inputs");
+  page->List(record.inputs);
+  page->Heading("Versions");
+  page->Code(record.version);
+}
+
+}  // namespace
+
+std::string DiscoveryHtml(const std::string& dataset,
+                          const RunRecord& record,
+                          const Discovery& discovery) {
+  HtmlPage page("discover",
+                "Gap discovery: " + dataset,
+                fmt::format("{} poses · where prediction and measurement disagree, what is missing "
+                            "in the model, and how the gap shrinks",
+                            discovery.poses.size()));
+  AddVerdict(discovery, &page);
+  AddEffects(discovery, &page);
+  AddGap(discovery, &page);
+  AddResiduals(discovery, &page);
+  AddSteps(discovery, &page);
+  AddWhere(discovery.where, &page);
+  AddNoise(discovery, &page);
+  AddLimits(discovery, &page);
+  if (!discovery.warnings.empty()) {
+    page.Section("Warnings");
+    page.List(discovery.warnings);
+  }
+  AddReproduce(record, &page);
+  return page.Html();
+}
+
+}  // namespace hexcal

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "discovery/discovery.h"
+#include "report/run_record.h"
+
+namespace hexcal {
+
+// report.html of a discovery: one file that opens offline (report/html/page.h). No times.
+// record: for "How to reproduce": versions, settings and inputs are shown.
+std::string DiscoveryHtml(const std::string& dataset,
+                          const RunRecord& record,
+                          const Discovery& discovery);
+
+}  // namespace hexcal

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Draws the pictures of a report from the JSON beside each: "@role" there is a colour of the
+// present look. What is in the names and numbers of a report is never run as code.
+(function () {
+  "use strict";
+  const kColours = {
+    light: {
+      ink: "#1b1f24", muted: "#57606a", grid: "#e1e5ea", paper: "#ffffff", clear: "rgba(0,0,0,0)",
+      before: "#d55e00", after: "#0072b2", floor: "#1b1f24", other: "#98a2ad", chosen: "#0072b2",
+      low: "#0072b2", middle: "#f7f7f7", high: "#d55e00"
+    },
+    dark: {
+      ink: "#e6e8eb", muted: "#9ba3ad", grid: "#2d343c", paper: "#14181d", clear: "rgba(0,0,0,0)",
+      before: "#f0883e", after: "#58b4f5", floor: "#ffffff", other: "#6e7781", chosen: "#58b4f5",
+      low: "#58b4f5", middle: "#1d2229", high: "#f0883e"
+    }
+  };
+  const kPrintWidth = 660;
+  const canHover = window.matchMedia("(hover: hover)");
+  const darkLook = window.matchMedia("(prefers-color-scheme: dark)");
+  let printing = false;
+
+  function coloured(value, colours) {
+    if (typeof value === "string") {
+      const role = value.charAt(0) === "@" ? value.slice(1) : "";
+      return Object.prototype.hasOwnProperty.call(colours, role) ? colours[role] : value;
+    }
+    if (Array.isArray(value)) return value.map(function (item) { return coloured(item, colours); });
+    if (value === null || typeof value !== "object") return value;
+    const copy = {};
+    Object.keys(value).forEach(function (key) { copy[key] = coloured(value[key], colours); });
+    return copy;
+  }
+
+  function isAxis(key) { return /^[xyz]axis[0-9]*$/.test(key); }
+
+  function styled(layout, colours) {
+    const full = Object.assign({
+      autosize: true, margin: { l: 62, r: 16, t: 12, b: 46 }, hovermode: "closest", dragmode: "zoom",
+      font: { family: "system-ui, DejaVu Sans, sans-serif", size: 13, color: colours.ink },
+      paper_bgcolor: colours.clear, plot_bgcolor: colours.clear,
+      modebar: { bgcolor: colours.clear, color: colours.muted, activecolor: colours.ink },
+      legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom" }
+    }, layout);
+    if (!full.scene) {
+      full.xaxis = full.xaxis || {};
+      full.yaxis = full.yaxis || {};
+    }
+    Object.keys(full).filter(isAxis).forEach(function (key) {
+      full[key] = Object.assign({
+        gridcolor: colours.grid, zerolinecolor: colours.muted, linecolor: colours.grid, automargin: true
+      }, full[key]);
+    });
+    if (printing) full.width = kPrintWidth;
+    return full;
+  }
+
+  function draw(plot) {
+    const library = plot.dataset.library === "3d" ? window.hexcal3d : window.hexcal2d;
+    if (!library) return;
+    const spec = JSON.parse(document.getElementById(plot.dataset.spec).textContent);
+    const colours = kColours[darkLook.matches && !printing ? "dark" : "light"];
+    library.react(plot, coloured(spec.data, colours), styled(coloured(spec.layout, colours), colours), {
+      responsive: true, displaylogo: false, displayModeBar: canHover.matches ? "hover" : false,
+      modeBarButtonsToRemove: ["select2d", "lasso2d"],
+      showSendToCloud: false, plotlyServerURL: ""
+    });
+  }
+
+  function drawAll() { document.querySelectorAll(".plot").forEach(draw); }
+
+  darkLook.addEventListener("change", drawAll);
+  window.addEventListener("beforeprint", function () { printing = true; drawAll(); });
+  window.addEventListener("afterprint", function () { printing = false; drawAll(); });
+  drawAll();
+})();

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/html/page.h"
+
+#include <fmt/format.h>
+
+#include "report/html/assets.h"
+#include "report/html/escape.h"
+
+namespace hexcal {
+namespace {
+
+bool HasCharts() { return !FlatCharts().empty() && !SpaceCharts().empty(); }
+
+std::string TableHtml(const HtmlTable& table) {
+  const auto cell = [&](const char* tag, std::size_t column, std::string_view text) {
+    const bool is_number = table.columns[column].is_number;
+    return fmt::format(
+        "<{0}{1}>{2}</{0}>", tag, is_number ? " class=\"number\"" : "", EscapeHtml(text));
+  };
+  std::string html = "<div class=\"scroll\"><table>\n<thead><tr>";
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    html += cell("th", c, table.columns[c].heading);
+  html += "</tr></thead>\n<tbody>\n";
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    html += static_cast<int>(r) == table.chosen_row ? "<tr class=\"chosen\">" : "<tr>";
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+      html += cell("td", c, table.rows[r].at(c));
+    html += "</tr>\n";
+  }
+  return html + "</tbody></table></div>\n";
+}
+
+std::string_view ClassOf(Tone tone) {
+  return tone == Tone::kGood ? "good" : tone == Tone::kWarn ? "warn" : "bad";
+}
+
+std::string Style(std::string_view text) { return fmt::format("<style>{}</style>\n", text); }
+std::string Script(std::string_view text) { return fmt::format("<script>{}</script>\n", text); }
+
+}  // namespace
+
+HtmlPage::HtmlPage(std::string kind, std::string title, std::string subtitle)
+    : kind_(std::move(kind)), title_(std::move(title)), subtitle_(std::move(subtitle)) {}
+
+std::string HtmlPage::Mark(std::string_view kind) {
+  return fmt::format("<!-- hexcal/report/{}/1 -->", kind);
+}
+
+void HtmlPage::Section(std::string_view heading) {
+  body_ += fmt::format("<h2>{}</h2>\n", EscapeHtml(heading));
+}
+
+void HtmlPage::Heading(std::string_view text) {
+  body_ += fmt::format("<h3>{}</h3>\n", EscapeHtml(text));
+}
+
+void HtmlPage::Paragraph(std::string_view text) {
+  body_ += fmt::format("<p>{}</p>\n", EscapeHtml(text));
+}
+
+void HtmlPage::Note(std::string_view text) {
+  body_ += fmt::format("<p class=\"note\">{}</p>\n", EscapeHtml(text));
+}
+
+void HtmlPage::List(const std::vector<std::string>& items) {
+  if (items.empty()) return;
+  body_ += "<ul>\n";
+  for (const std::string& item : items) body_ += fmt::format("<li>{}</li>\n", EscapeHtml(item));
+  body_ += "</ul>\n";
+}
+
+void HtmlPage::Table(const HtmlTable& table) { body_ += TableHtml(table); }
+
+void HtmlPage::Code(std::string_view text) {
+  body_ += fmt::format("<pre>{}</pre>\n", EscapeHtml(text));
+}
+
+void HtmlPage::Verdict(Tone tone,
+                       std::string_view id,
+                       std::string_view word,
+                       std::string_view sentence) {
+  body_ +=
+      fmt::format("<p class=\"verdict {}\" id=\"{}\"><strong>{}</strong> <span>{}</span></p>\n",
+                  ClassOf(tone),
+                  EscapeHtml(id),
+                  EscapeHtml(word),
+                  EscapeHtml(sentence));
+}
+
+void HtmlPage::Figure(const Chart& chart) {
+  const std::string caption =
+      fmt::format("<figcaption><b>Shows</b> {} <b>Good looks like</b> {}</figcaption>\n",
+                  EscapeHtml(chart.shows),
+                  EscapeHtml(chart.good));
+  body_ += fmt::format("<figure>\n<h3>{}</h3>\n", EscapeHtml(chart.title));
+  if (HasCharts()) {
+    const int number = ++charts_;
+    (chart.is_in_space ? has_space_ : has_flat_) = true;
+    body_ += fmt::format(
+        "<div class=\"plot\" role=\"img\" aria-label=\"{}\" data-spec=\"spec-{}\" "
+        "data-library=\"{}\"></div>\n",
+        EscapeHtml(chart.title),
+        number,
+        chart.is_in_space ? "3d" : "2d");
+    body_ += fmt::format("<script type=\"application/json\" id=\"spec-{}\">{}</script>\n",
+                         number,
+                         JsonForScript({{"data", chart.data}, {"layout", chart.layout}}));
+    body_ += caption;
+    if (!chart.table.columns.empty())
+      body_ +=
+          "<details><summary>The numbers</summary>\n" + TableHtml(chart.table) + "</details>\n";
+  } else {
+    body_ += caption;
+    if (!chart.table.columns.empty()) body_ += TableHtml(chart.table);
+  }
+  body_ += "</figure>\n";
+}
+
+void HtmlPage::Figures(const std::vector<Chart>& charts) {
+  body_ += "<div class=\"figures\">\n";
+  for (const Chart& chart : charts) Figure(chart);
+  body_ += "</div>\n";
+}
+
+std::string HtmlPage::Html() const {
+  std::vector<std::string_view> scripts;
+  if (has_flat_) scripts.push_back(FlatCharts());
+  if (has_space_) scripts.push_back(SpaceCharts());
+  if (!scripts.empty()) scripts.push_back(PageScript());
+  std::string script_hashes = scripts.empty() ? " 'none'" : "";
+  for (const std::string_view script : scripts) script_hashes += " " + PolicyHash(script);
+  // The chart library adds an empty style element and fills it by rules, and sets style attributes.
+  const std::string policy = fmt::format(
+      "default-src 'none'; script-src{}; style-src-elem {} {}; style-src-attr 'unsafe-inline'; "
+      "img-src data: blob:; base-uri 'none'; form-action 'none'",
+      script_hashes,
+      PolicyHash(PageCss()),
+      PolicyHash(""));
+  std::string html = fmt::format(
+      "<!doctype html>\n{}\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<meta name=\"referrer\" content=\"no-referrer\">\n<title>{}</title>\n",
+      Mark(kind_),
+      EscapeHtml(policy),
+      EscapeHtml(title_));
+  html += Style(PageCss()) + "</head>\n<body>\n";
+  html += fmt::format(
+      "<h1>{}</h1>\n<p class=\"subtitle\">{}</p>\n", EscapeHtml(title_), EscapeHtml(subtitle_));
+  if (!HasCharts())
+    html +=
+        "<p class=\"note\">This hexcal was built without its chart library (plotly.js): the tables "
+        "stand in place of the pictures.</p>\n";
+  else if (!scripts.empty())
+    html +=
+        "<noscript><p class=\"note\">Scripts are off: the numbers of each picture are in the table "
+        "below it.</p></noscript>\n";
+  html += body_;
+  for (const std::string_view script : scripts) html += Script(script);
+  return html + "</body>\n</html>\n";
+}
+
+}  // namespace hexcal

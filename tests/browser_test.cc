@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Reports in a real browser, offline: pictures are drawn, nothing is said on the console (errors,
+// refusals by the policy, requests), hostile names do nothing, the page prints. Skipped where there
+// is no Chromium.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "report/discovery_html.h"
+#include "report/discovery_json.h"
+#include "report/html/assets.h"
+#include "report/html/page.h"
+#include "testing/browser.h"
+#include "testing/discoveries.h"
+
+namespace hexcal {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+int Count(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++count;
+  return count;
+}
+
+RunRecord Record() {
+  RunRecord record;
+  record.version = "hexcal 1.2.3\n";
+  record.settings = {{"seed", "7"}};
+  record.inputs = {"dataset.yaml"};
+  return record;
+}
+
+class InBrowser : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!browser.IsThere()) GTEST_SKIP() << "no Chromium: scripts/install_dependencies test";
+  }
+
+  // Draws what there is to draw, without a word on the console.
+  std::string Dom(const std::string& html) {
+    std::string dom = browser.Dom(html);
+    EXPECT_THAT(browser.Console(), IsEmpty());
+    return dom;
+  }
+
+  testing::Browser browser;
+};
+
+TEST_F(InBrowser, TheConsoleIsHeard) {
+  browser.Dom("<script>console.error('heard')</script>");
+  ASSERT_EQ(browser.Console().size(), 1u);
+  EXPECT_THAT(browser.Console()[0], HasSubstr("heard"));
+}
+
+// A page's policy allows no request at all, and what it refuses is told.
+TEST_F(InBrowser, ARequestWouldBeHeard) {
+  std::string html = HtmlPage("test", "t", "s").Html();
+  html.insert(html.find("</body>"), "<img src=\"https://example.com/a.png\">");
+  browser.Dom(html);
+  ASSERT_EQ(browser.Console().size(), 1u);
+  EXPECT_THAT(browser.Console()[0], HasSubstr("violates the following Content Security Policy"));
+}
+
+TEST_F(InBrowser, ADiscoveryIsDrawnAndSaysWhatItsJsonSays) {
+  const Discovery discovery = testing::MakeDiscovery();
+  const std::string html = DiscoveryHtml("demo", Record(), discovery);
+  const std::string dom = Dom(html);
+  const int pictures = Count(html, "class=\"plot\"");
+  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 11);
+  EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), pictures);
+  EXPECT_GE(Count(dom, "<svg class=\"main-svg\""), pictures);
+  const auto json = nlohmann::json::parse(DiscoveryJson("demo", {}, discovery));
+  EXPECT_THAT(dom, HasSubstr("id=\"verdict\"><strong>" + json["verdict"].get<std::string>()));
+  for (const char* text : {"leg_gain — leg 3",
+                           "312 ± 12 ppm",
+                           "tool/t2 y",
+                           "base_radius",
+                           "other heights",
+                           "leg_thermal",
+                           "a temperature column",
+                           "leg_backlash (2)",
+                           "hexcal 1.2.3",
+                           "dataset.yaml",
+                           "a warning"})
+    EXPECT_THAT(dom, HasSubstr(text));
+}
+
+TEST_F(InBrowser, WhereNothingWasFoundAndNoLegsAreKnownThereIsAPageToo) {
+  Discovery discovery = testing::MakeDiscovery();
+  discovery.verdict = Verdict::kUndecided;
+  discovery.effects.clear();
+  discovery.steps.erase(discovery.steps.begin(), discovery.steps.end() - 1);
+  discovery.gap.heldout_before = discovery.gap.heldout_after = {};
+  for (PoseGap& pose : discovery.poses) pose.leg_lengths.reset();
+  EXPECT_THAT(Dom(DiscoveryHtml("demo", Record(), discovery)),
+              AllOf(HasSubstr("<strong>undecided</strong>"), HasSubstr("geometry is not known")));
+}
+
+TEST_F(InBrowser, HostileNamesAreOnlyNames) {
+  const std::string hostile =
+      "</script><script>document.title='no'</script><img src=x onerror=\"document.title='no'\">";
+  Discovery discovery = testing::MakeDiscovery();
+  discovery.effects[1].labels = {hostile};
+  discovery.effects[0].description = hostile;
+  discovery.effects[0].could_also_be = {{hostile, hostile}};
+  discovery.steps[0].candidates[0].name = discovery.steps[0].added = hostile;
+  discovery.where.poses[0].what = hostile;
+  discovery.not_testable[0] = {hostile, hostile};
+  discovery.detectable[0].name = hostile;
+  discovery.warnings = {hostile};
+  for (PoseGap& pose : discovery.poses) pose.label = hostile;
+  RunRecord record = Record();
+  record.inputs = {hostile};
+  record.settings = {{"out", hostile}};
+  const std::string dom = Dom(DiscoveryHtml("demo", record, discovery));
+  EXPECT_THAT(dom,
+              AllOf(HasSubstr("<title>Gap discovery: demo</title>"),
+                    Not(HasSubstr("<img")),
+                    HasSubstr("&lt;img")));
+  EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), FlatCharts().empty() ? 0 : 11);
+}
+
+TEST_F(InBrowser, PicturesInSpaceAndFlatOnesStandOnOnePage) {
+  if (SpaceCharts().empty()) GTEST_SKIP() << "built without plotly.js";
+  HtmlPage page("test", "t", "s");
+  Chart chart;
+  chart.data = nlohmann::ordered_json::array({{{"x", {1, 2}}, {"y", {2, 1}}}});
+  page.Figure(chart);
+  chart.data[0]["z"] = {1, 2};
+  chart.data[0]["type"] = "scatter3d";
+  chart.is_in_space = true;
+  page.Figure(chart);
+  const std::string dom = browser.Dom(page.Html());
+  const std::string before_scripts = dom.substr(0, dom.find("plotly.js (cartesian"));
+  EXPECT_EQ(Count(before_scripts, "class=\"plot js-plotly-plot\""), 2);
+  EXPECT_THAT(before_scripts, AllOf(HasSubstr("<canvas"), Not(HasSubstr("no-webgl"))));
+  // Drawing in software is slow, and said to be.
+  for (const std::string& line : browser.Console())
+    EXPECT_THAT(line, AnyOf(HasSubstr("Performance"), HasSubstr("willReadFrequently")));
+}
+
+TEST_F(InBrowser, AReportPrints) {
+  const std::string pdf = browser.Pdf(DiscoveryHtml("demo", Record(), testing::MakeDiscovery()));
+  EXPECT_THAT(pdf.substr(0, 8), StartsWith("%PDF"));
+  EXPECT_GT(pdf.size(), 20000u);
+  EXPECT_THAT(browser.Console(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace hexcal

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <unistd.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "testing/run_program.h"
+
+namespace hexcal::testing {
+
+// A Chromium without a window, as installed by scripts/install_dependencies test.
+class Browser {
+ public:
+  bool IsThere() const { return !Program().empty(); }
+
+  // What has become of the page after its scripts have run, as HTML.
+  std::string Dom(const std::string& html) { return Open(html, {"--dump-dom"}); }
+
+  // The page on paper: the bytes of a PDF.
+  std::string Pdf(const std::string& html) {
+    Open(html, {"--print-to-pdf=" + folder_.Path("page.pdf"), "--no-pdf-header-footer"});
+    return folder_.Read("page.pdf");
+  }
+
+  // What the last page said on the console: errors, refusals by its policy, requests that failed.
+  const std::vector<std::string>& Console() const { return console_; }
+
+ private:
+  static std::string Program() {
+    for (const char* program :
+         {"/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"})
+      if (access(program, X_OK) == 0) return program;
+    return "";
+  }
+
+  // Offline: no host has an address, so that every request of the page fails and is told.
+  std::string Open(const std::string& html, const std::vector<std::string>& more) {
+    ProgramRun run;
+    run.arguments = {"--headless",
+                     "--no-sandbox",
+                     "--disable-gpu",
+                     "--enable-unsafe-swiftshader",
+                     "--no-first-run",
+                     "--disable-background-networking",
+                     "--disable-component-update",
+                     "--disable-sync",
+                     "--disable-dev-shm-usage",
+                     "--host-resolver-rules=MAP * ~NOTFOUND",
+                     "--user-data-dir=" + folder_.Path("profile"),
+                     "--enable-logging=stderr",
+                     "--v=0",
+                     "--virtual-time-budget=10000"};
+    run.arguments.insert(run.arguments.end(), more.begin(), more.end());
+    run.arguments.push_back("file://" + folder_.Write("page.html", html));
+    run.environment = {{"HOME", folder_.Path("")}};
+    const ProgramResult result = RunProgram(Program(), run);
+    console_.clear();
+    std::istringstream lines(result.err);
+    for (std::string line; std::getline(lines, line);)
+      if (line.find(":CONSOLE:") != std::string::npos) console_.push_back(line);
+    EXPECT_EQ(result.status, 0) << result.err;
+    return result.out;
+  }
+
+  TemporaryFolder folder_;
+  std::vector<std::string> console_;
+};
+
+}  // namespace hexcal::testing
