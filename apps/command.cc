@@ -90,11 +90,12 @@ const Command kDiscover = {
     1,
     "Calibrates base and tool, tests what they leave against every effect of docs/effects.md that "
     "the dataset can be tested for, names the one that the data support (or the class, or says "
-    "that "
-    "it is unknown), adds it to the model, fits again and shows how far the gap between prediction "
+    "that it is unknown), adds it to the model, fits again and shows how far the gap between "
+    "prediction "
     "and measurement shrinks, on poses that neither the fit nor the choice has seen. Writes "
-    "discovery.json, result.json, model.yaml (for predict, simulate and calibrate --model) and "
-    "run.json to DIR/<name>/. No verdict changes the exit status; 4: the 12 parameters cannot be "
+    "report.html (open it in a browser), discovery.json, result.json, model.yaml (for predict, "
+    "simulate and calibrate --model) and run.json to DIR/<name>/. No verdict changes the exit "
+    "status; 4: the 12 parameters cannot be "
     "trusted.",
     {{"out", true, "DIR", "The results go to DIR/<name>/."},
      {"alpha"},
