@@ -44,7 +44,7 @@ bool TryEffects(const CaseOptions& options,
   made->effects.clear();
   for (const std::string& name : names) {
     HiddenEffect effect = DrawNamed(name, made->scene, options.detail, dice);
-    if (!ScaleTo(options.snr, made->scene, options.regime, &effect)) return false;
+    if (!ScaleTo(options.snr, made->scene, options.regime, options.level, &effect)) return false;
     made->effects.push_back(effect);
   }
   return true;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hidden/noise.h"
+#include "hidden/pose_fit.h"
 
 namespace hexcal::hidden {
 
@@ -14,6 +15,7 @@ struct CaseOptions {
   // of an effect, listed or not | two names with a + between.
   std::string kind = "any";
   double snr = 12.0;  // of each effect, pose_fit.h's Snr
+  Level level = Level::kMarkers;
   Regime regime = Regime::kWhite;
   SceneOptions scene;
   DetailOptions detail;

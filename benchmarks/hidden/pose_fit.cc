@@ -215,7 +215,8 @@ Fit FitMounts(const Scene& scene,
 double Snr(const Scene& scene,
            const std::vector<HiddenEffect>& effects,
            const std::vector<HiddenEffect>& others,
-           Regime regime) {
+           Regime regime,
+           Level level) {
   Normal normal(Unknowns(scene, {}));
   std::vector<HiddenEffect> all = others;
   all.insert(all.end(), effects.begin(), effects.end());
@@ -230,15 +231,16 @@ double Snr(const Scene& scene,
                whiten(SlopeByTracker(scene, row, additions)),
                scene.tracker_is_static);
   }
-  const double left = normal.square - normal.vector.dot(normal.Inverse() * normal.vector);
+  double left = normal.square - normal.vector.dot(normal.Inverse() * normal.vector);
+  if (level == Level::kPoses) left -= normal.within_bodies;
   return std::sqrt(std::max(left, 0.0));
 }
 
-bool ScaleTo(double snr, const Scene& scene, Regime regime, HiddenEffect* effect) {
+bool ScaleTo(double snr, const Scene& scene, Regime regime, Level level, HiddenEffect* effect) {
   effect->parameters *=
       0.1 / effect->parameters.cwiseAbs().cwiseQuotient(effect->largest).maxCoeff();
   for (int pass = 0; pass < 3; ++pass) {
-    const double now = Snr(scene, {*effect}, {}, regime);
+    const double now = Snr(scene, {*effect}, {}, regime, level);
     if (!(now > 1e-9)) return false;
     effect->parameters *= snr / now;
     if (!((effect->parameters.cwiseAbs() - effect->largest).maxCoeff() <= 0)) return false;

@@ -24,16 +24,20 @@ Fit FitMounts(const Scene& scene,
               const std::vector<HiddenEffect>& effects,
               const std::vector<Reading>& readings);
 
+// What is looked at: every marker, or the pose that each row's markers give.
+enum class Level { kMarkers, kPoses };
+
 // Clearness of some effects: what their readings differ from those without them after base, tool
 // and the tracker's pose of each row have taken what they can, in sigmas of the true noise: the
 // root of lambda. others: effects that are there in both.
 double Snr(const Scene& scene,
            const std::vector<HiddenEffect>& effects,
            const std::vector<HiddenEffect>& others,
-           Regime regime);
+           Regime regime,
+           Level level = Level::kMarkers);
 
 // Scales the parameters until Snr is this. False: not with plausible parameters.
-bool ScaleTo(double snr, const Scene& scene, Regime regime, HiddenEffect* effect);
+bool ScaleTo(double snr, const Scene& scene, Regime regime, Level level, HiddenEffect* effect);
 
 // Root mean square distance of the tool's positions in the rows that are held out, m: what a fit
 // predicts against the truth.
