@@ -138,6 +138,7 @@ Chart RankingChart(const Step& step, std::size_t number) {
       "one bar far above the rest, for a name that stands alone; bars of about equal length are "
       "rivals that these data hardly tell apart. Below zero the data speak against it.";
   chart.table = {{{"candidate"}, {"evidence", true}, {"p by itself", true}}, {}, -1};
+  double low = 0.0, high = 0.0;
   Json names = Json::array(), scores = Json::array(), colours = Json::array(),
        texts = Json::array();
   for (const CandidateScore& candidate : step.candidates) {
@@ -149,9 +150,14 @@ Chart RankingChart(const Step& step, std::size_t number) {
     chart.table.rows.push_back({name, fmt::format("{:.1f}", candidate.score), p});
     names.push_back(EscapeLabel(name));
     scores.push_back(candidate.score);
+    low = std::min(low, candidate.score), high = std::max(high, candidate.score);
     colours.push_back(is_added ? "@chosen" : "@other");
     texts.push_back("p = " + p);
   }
+  // Room for the texts beside the bars.
+  const double room = 0.35 * std::max(high - low, 1.0);
+  Json x = Axis("evidence", false);
+  x["range"] = Json::array({low < 0.0 ? low - room : 0.0, high + room});
   Json y = Axis("", false);
   y["autorange"] = "reversed", y["type"] = "category", y["showgrid"] = false;
   chart.data = Json::array({{{"type", "bar"},
@@ -159,12 +165,12 @@ Chart RankingChart(const Step& step, std::size_t number) {
                              {"x", scores},
                              {"y", names},
                              {"text", texts},
-                             {"textposition", "auto"},
+                             {"textposition", "outside"},
                              {"cliponaxis", false},
                              {"marker", {{"color", colours}}}}});
   chart.layout = {{"height", 110 + 26 * static_cast<int>(names.size())},
                   {"showlegend", false},
-                  {"xaxis", Axis("evidence", true)},
+                  {"xaxis", x},
                   {"yaxis", y}};
   return chart;
 }
@@ -175,7 +181,7 @@ std::vector<Chart> SizeCharts(const DiscoveredEffect& found) {
   for (const EffectParameter& parameter : ParametersOf(found.effect, found.labels)) {
     std::vector<EffectNumber> carried;
     for (const EffectNumber& number : parameter.numbers)
-      if (number.is_carried) carried.push_back(number);
+      if (IsShown(number)) carried.push_back(number);
     const bool is_one_unit =
         std::all_of(carried.begin(), carried.end(), [&](const EffectNumber& n) {
           return n.unit == carried.front().unit;

@@ -31,7 +31,7 @@ HtmlTable SizeTable(const DiscoveredEffect& found) {
   for (const auto& [what, words] : found.effect.found) table.rows.push_back({what, "", words});
   for (const EffectParameter& parameter : ParametersOf(found.effect, found.labels))
     for (const EffectNumber& number : parameter.numbers)
-      if (number.is_carried)
+      if (IsShown(number))
         table.rows.push_back({parameter.name,
                               number.part,
                               QuantityText(number.value, number.standard_deviation, number.unit)});
@@ -41,7 +41,8 @@ HtmlTable SizeTable(const DiscoveredEffect& found) {
 void AddFound(const DiscoveredEffect& found, std::size_t number, HtmlPage* page) {
   page->Heading(fmt::format("{}. {} — {}", number, found.effect.name, CarriersOf(found)));
   if (!found.description.empty()) page->Paragraph(found.description);
-  if (const EffectKind* kind = FindEffectKind(found.effect.name))
+  const EffectKind* kind = FindEffectKind(found.effect.name);
+  if (kind != nullptr && found.description.find(kind->cause) == std::string::npos)
     page->Note(std::string(kind->cause));
   page->Paragraph(
       fmt::format("Acts at: {}. Follows: {}. Shape: {}. Probability that so much appears by chance "
@@ -127,32 +128,38 @@ void AddSteps(const Discovery& discovery, HtmlPage* page) {
   page->Figures(rankings);
 }
 
+// The smallest p first.
+TitledTable WhereTable(const char* title, std::vector<WhereItem> items) {
+  constexpr std::size_t kMostRows = 10;
+  std::stable_sort(items.begin(), items.end(), [](const WhereItem& a, const WhereItem& b) {
+    return a.p_value < b.p_value;
+  });
+  HtmlTable table = {{{"where"}, {"p", true}, {"share", true}}, {}};
+  for (const WhereItem& item : items) {
+    if (table.rows.size() == kMostRows) break;
+    table.rows.push_back({item.what, ProbabilityText(item.p_value), ShareText(item.share)});
+  }
+  if (items.size() > kMostRows)
+    table.rows.push_back(
+        {fmt::format("{} more, in discovery.json", items.size() - kMostRows), "", ""});
+  return {title, table};
+}
+
 void AddWhere(const Where& where, HtmlPage* page) {
-  constexpr std::size_t kMostRows = 12;
   page->Section("Where base and tool alone disagree");
   page->Note(
       "p: the probability of as much by chance, corrected for the length of its list. Share: of "
-      "the disagreement beyond noise that it holds. The smallest p first.");
-  const auto list = [page](const char* heading, std::vector<WhereItem> items) {
-    if (items.empty()) return;
-    std::stable_sort(items.begin(), items.end(), [](const WhereItem& a, const WhereItem& b) {
-      return a.p_value < b.p_value;
-    });
-    page->Heading(heading);
-    HtmlTable table = {{{"where"}, {"p", true}, {"share", true}}, {}};
-    for (const WhereItem& item : items) {
-      if (table.rows.size() == kMostRows) break;
-      table.rows.push_back({item.what, ProbabilityText(item.p_value), ShareText(item.share)});
-    }
-    page->Table(table);
-    if (items.size() > kMostRows)
-      page->Note(fmt::format("{} more, in discovery.json.", items.size() - kMostRows));
+      "the disagreement beyond noise that it holds; shares overlap. The smallest p first.");
+  std::vector<TitledTable> tables;
+  const auto add = [&tables](const char* title, const std::vector<WhereItem>& items) {
+    if (!items.empty()) tables.push_back(WhereTable(title, items));
   };
-  list("By frame of origin", where.sites);
-  list("By what it follows", where.covariates);
-  list("By leg", where.legs);
-  list("By axis", where.axes);
-  list("By pose", where.poses);
+  add("By frame of origin", where.sites);
+  add("By what it follows", where.covariates);
+  add("By leg", where.legs);
+  add("By axis", where.axes);
+  add("By pose", where.poses);
+  page->Tables(tables);
 }
 
 void AddNoise(const Discovery& discovery, HtmlPage* page) {

@@ -71,7 +71,7 @@ std::vector<std::string> SizesOf(const DiscoveredEffect& found) {
   for (const EffectParameter& parameter : ParametersOf(found.effect, found.labels)) {
     std::vector<std::string> numbers;
     for (const EffectNumber& number : parameter.numbers) {
-      if (!number.is_carried) continue;
+      if (!IsShown(number)) continue;
       const std::string text = QuantityText(number.value, number.standard_deviation, number.unit);
       numbers.push_back(number.part.empty() ? text : number.part + " " + text);
     }
@@ -99,13 +99,14 @@ std::vector<std::string> NoiseSentences(const NoiseFound& noise) {
         fmt::format("It is correlated by {:.2f} from one pose to the next.", noise.correlation));
   if (noise.shape_scale != 1.0)
     lines.push_back(
-        fmt::format("The markers fit their bodies {:.3g} times as badly as the stated "
-                    "noise says.",
+        fmt::format("Within their bodies the markers scatter {:.3g} times the stated "
+                    "noise.",
                     noise.shape_scale));
   return lines;
 }
 
 std::string NameWithIndex(const std::string& name, const std::vector<int>& index) {
+  if (index == std::vector<int>{1, 2, 3, 4, 5, 6}) return name + " (all six)";
   return index.empty() ? name : fmt::format("{} ({})", name, fmt::join(index, ", "));
 }
 

@@ -26,7 +26,7 @@ std::vector<std::string> SizesOf(const DiscoveredEffect& found);
 // What noise was found, a sentence each; nothing where it is as stated.
 std::vector<std::string> NoiseSentences(const NoiseFound& noise);
 
-// "leg_gain (leg 3)".
+// "leg_gain (3)", "leg_gain (all six)".
 std::string NameWithIndex(const std::string& name, const std::vector<int>& index);
 
 // Whether the held-out test was done.

@@ -5,6 +5,7 @@
 #include <glog/logging.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace hexcal {
@@ -52,6 +53,11 @@ bool IsCarried(const EffectKind& kind,
   return std::find(effect.index.begin(), effect.index.end(), leg) != effect.index.end();
 }
 
+std::string UnitOf(const EffectKind& kind, const ParameterKind& parameter, int number) {
+  if (parameter.name.substr(0, 5) == "phase") return "phase";
+  return std::string(kind.UnitOf(number));
+}
+
 int ColumnsOf(const ParameterKind& parameter) {
   if (parameter.is_per_marker) return parameter.size;
   if (parameter.size == 1) return 0;
@@ -59,6 +65,10 @@ int ColumnsOf(const ParameterKind& parameter) {
 }
 
 }  // namespace
+
+bool IsShown(const EffectNumber& number) {
+  return number.is_carried && (number.value != 0.0 || std::isfinite(number.standard_deviation));
+}
 
 std::vector<EffectParameter> ParametersOf(const Effect& effect,
                                           const std::vector<std::string>& labels) {
@@ -77,7 +87,7 @@ std::vector<EffectParameter> ParametersOf(const Effect& effect,
                                effect.parameters[at],
                                has_deviations ? effect.standard_deviation[at]
                                               : std::numeric_limits<double>::quiet_NaN(),
-                               std::string(kind->UnitOf(at)),
+                               UnitOf(*kind, parameter, at),
                                IsCarried(*kind, parameter, n, effect)});
     parameters.push_back(std::move(found));
   }

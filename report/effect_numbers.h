@@ -14,7 +14,7 @@ struct EffectNumber {
   std::string part;  // "leg 3", "dx", "tool/t2 y"; empty where the parameter is one number
   double value = 0.0;
   double standard_deviation = 0.0;
-  std::string unit;
+  std::string unit;        // of the table of kinds; "phase" for an angle within a turn, rad
   bool is_carried = true;  // false: of a leg or joint that does not carry the effect, zero
 };
 
@@ -23,6 +23,10 @@ struct EffectParameter {
   std::vector<EffectNumber> numbers;
   int columns = 0;  // 0: one number; else the numbers are a list, or rows of so many
 };
+
+// False for what is zero only because the effect does not use it: another leg's number, a search
+// that was not made.
+bool IsShown(const EffectNumber& number);
 
 // The parameters of an effect in the order of its kind. Empty for a fault of the data and for an
 // effect of no kind (unknown).

@@ -21,6 +21,7 @@ struct Row {
 constexpr Row kRows[] = {
     {"m", 1e3, "mm"},
     {"rad", 1e3, "mrad"},
+    {"phase", 57.29577951308232, "°"},
     {"1", 1e6, "ppm"},
     {"1/m", 1.0, "µm/mm²"},
     {"m/rad", 1e3, "mm/rad"},

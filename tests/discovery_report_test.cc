@@ -207,6 +207,21 @@ TEST(DiscoveryTable, ShowsWhatWasFoundWithSizesInUnits) {
     EXPECT_THAT(table, HasSubstr(text));
 }
 
+TEST(DiscoveryTable, PhasesAreInDegreesAndWhatWasNotSearchedIsNotShown) {
+  DiscoveredEffect found;
+  found.effect.name = "leg_periodic";
+  found.effect.index = {2};
+  const EffectKind& kind = *FindEffectKind("leg_periodic");
+  found.effect.parameters = Eigen::VectorXd::Zero(kind.size());
+  found.effect.standard_deviation = Eigen::VectorXd::Constant(kind.size(), std::nan(""));
+  const int phase = kind.OffsetOf("phase") + 1;
+  found.effect.parameters[phase] = M_PI / 2;
+  found.effect.standard_deviation[phase] = M_PI / 180;
+  EXPECT_THAT(SizesOf(found), ElementsAre("phase: leg 2 90.0 ± 1.0 °"));
+  EXPECT_EQ(NameWithIndex("leg_gain", {1, 2, 3, 4, 5, 6}), "leg_gain (all six)");
+  EXPECT_EQ(NameWithIndex("leg_gain", {3, 5}), "leg_gain (3, 5)");
+}
+
 TEST(DiscoveryTable, SaysPlainlyThatNothingIsThere) {
   Discovery discovery;
   EXPECT_THAT(DiscoveryTable("demo", discovery),

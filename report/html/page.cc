@@ -71,6 +71,17 @@ void HtmlPage::List(const std::vector<std::string>& items) {
 
 void HtmlPage::Table(const HtmlTable& table) { body_ += TableHtml(table); }
 
+void HtmlPage::Tables(const std::vector<TitledTable>& tables) {
+  body_ += "<div class=\"tables\">\n";
+  for (const TitledTable& titled : tables) {
+    body_ += "<div>";
+    Heading(titled.title);
+    Table(titled.table);
+    body_ += "</div>\n";
+  }
+  body_ += "</div>\n";
+}
+
 void HtmlPage::Code(std::string_view text) {
   body_ += fmt::format("<pre>{}</pre>\n", EscapeHtml(text));
 }

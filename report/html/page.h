@@ -20,6 +20,11 @@ struct HtmlTable {
   int chosen_row = -1;  // set off from the others
 };
 
+struct TitledTable {
+  std::string title;
+  HtmlTable table;
+};
+
 // A picture for plotly.js with what one needs to read it. Strings in data and layout that come
 // from a file go through EscapeLabel; "@before" and the like are colours of the present look
 // (assets/page.js).
@@ -50,6 +55,7 @@ class HtmlPage {
   void Note(std::string_view text);  // a paragraph of lesser weight
   void List(const std::vector<std::string>& items);
   void Table(const HtmlTable& table);
+  void Tables(const std::vector<TitledTable>& tables);  // side by side where there is room
   void Code(std::string_view text);
   // A sentence in a box under a word; `id` marks it for programs that read the page.
   void Verdict(Tone tone, std::string_view id, std::string_view word, std::string_view sentence);
