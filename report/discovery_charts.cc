@@ -19,6 +19,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMilli = 1e3;
 constexpr std::size_t kMostBars = 10;
+constexpr std::size_t kMostSizes = 40;
 
 // What a gap is read from: position or orientation.
 struct Part {
@@ -179,6 +180,7 @@ std::vector<Chart> SizeCharts(const DiscoveredEffect& found) {
   constexpr double kNormal95 = 1.959964;
   std::vector<Chart> charts;
   for (const EffectParameter& parameter : ParametersOf(found.effect, found.labels)) {
+    if (parameter.numbers.size() > kMostSizes) continue;
     std::vector<EffectNumber> carried;
     for (const EffectNumber& number : parameter.numbers)
       if (IsShown(number)) carried.push_back(number);

@@ -15,6 +15,8 @@
 namespace hexcal {
 namespace {
 
+constexpr std::size_t kMostNumbers = 40;
+
 Tone ToneOf(Verdict verdict) {
   if (verdict == Verdict::kUndecided) return Tone::kBad;
   return verdict == Verdict::kPartlyExplained ? Tone::kWarn : Tone::kGood;
@@ -28,13 +30,20 @@ void AddVerdict(const Discovery& discovery, HtmlPage* page) {
 
 HtmlTable SizeTable(const DiscoveredEffect& found) {
   HtmlTable table = {{{"parameter"}, {"of"}, {"size ± one standard deviation", true}}, {}};
-  for (const auto& [what, words] : found.effect.found) table.rows.push_back({what, "", words});
-  for (const EffectParameter& parameter : ParametersOf(found.effect, found.labels))
+  if (found.effect.name != kUnknownEffect)
+    for (const auto& [what, words] : found.effect.found) table.rows.push_back({what, "", words});
+  for (const EffectParameter& parameter : ParametersOf(found.effect, found.labels)) {
+    if (parameter.numbers.size() > kMostNumbers) {
+      table.rows.push_back(
+          {parameter.name, fmt::format("{} numbers", parameter.numbers.size()), "in model.yaml"});
+      continue;
+    }
     for (const EffectNumber& number : parameter.numbers)
       if (IsShown(number))
         table.rows.push_back({parameter.name,
                               number.part,
                               QuantityText(number.value, number.standard_deviation, number.unit)});
+  }
   return table;
 }
 

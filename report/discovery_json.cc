@@ -42,7 +42,7 @@ Json FoundEffect(const DiscoveredEffect& found) {
                  {"parameters", JsonParameters(found.effect)},
                  {"standard_deviation", JsonDeviations(found.effect)},
                  {"units", JsonUnits(found.effect)}};
-  if (!found.effect.found.empty()) effect["found"] = found.effect.found;
+  AddDescription(found.effect, &effect);
   effect["p_value"] = found.p_value;
   effect["log10_p"] = found.log10_p;
   effect["gap_closed"] = found.gap_closed;

@@ -11,6 +11,8 @@
 namespace hexcal {
 namespace {
 
+constexpr std::size_t kMostNumbers = 18;
+
 std::string NamesOf(const Discovery& discovery) {
   std::vector<std::string> names;
   for (const DiscoveredEffect& found : discovery.effects) {
@@ -67,8 +69,14 @@ std::string CarriersOf(const DiscoveredEffect& found) {
 
 std::vector<std::string> SizesOf(const DiscoveredEffect& found) {
   std::vector<std::string> lines;
-  for (const auto& [what, words] : found.effect.found) lines.push_back(what + ": " + words);
+  if (found.effect.name != kUnknownEffect)
+    for (const auto& [what, words] : found.effect.found) lines.push_back(what + ": " + words);
   for (const EffectParameter& parameter : ParametersOf(found.effect, found.labels)) {
+    if (parameter.numbers.size() > kMostNumbers) {
+      lines.push_back(
+          fmt::format("{}: {}, in model.yaml", parameter.name, parameter.numbers.size()));
+      continue;
+    }
     std::vector<std::string> numbers;
     for (const EffectNumber& number : parameter.numbers) {
       if (!IsShown(number)) continue;

@@ -48,6 +48,8 @@ Json JsonDeviations(const Effect& effect) {
 Json JsonUnits(const Effect& effect) {
   const EffectKind* kind = FindEffectKind(effect.name);
   Json units = Json::object();
+  if (kind == nullptr && effect.parameters.size() > 0)
+    units["coefficients"] = IsOfLegs(effect) ? "m" : "m, rad";
   if (kind == nullptr) return units;
   for (const ParameterKind& parameter : kind->parameters)
     units[std::string(parameter.name)] = std::string(parameter.unit);
@@ -60,8 +62,14 @@ Json JsonEffect(const Effect& effect) {
                  {"parameters", JsonParameters(effect)},
                  {"standard_deviation", JsonDeviations(effect)},
                  {"units", JsonUnits(effect)}};
-  if (!effect.found.empty()) object["found"] = effect.found;
+  AddDescription(effect, &object);
   return object;
+}
+
+void AddDescription(const Effect& effect, Json* object) {
+  if (!effect.found.empty()) (*object)["found"] = effect.found;
+  const bool is_unknown = FindEffectKind(effect.name) == nullptr;
+  if (is_unknown && !effect.reference.empty()) (*object)["reference"] = effect.reference;
 }
 
 }  // namespace hexcal

@@ -64,7 +64,28 @@ int ColumnsOf(const ParameterKind& parameter) {
   return parameter.size > kLegs ? parameter.size / kLegs : parameter.size;
 }
 
+// Six numbers, or six a term of a map of the pose: legs', or a twist's.
+std::vector<EffectParameter> CoefficientsOf(const Effect& effect) {
+  if (effect.parameters.size() == 0) return {};
+  const bool is_of_legs = IsOfLegs(effect);
+  const bool has_deviations = effect.standard_deviation.size() == effect.parameters.size();
+  EffectParameter coefficients = {"coefficients", {}, kLegs};
+  for (int n = 0; n < effect.parameters.size(); ++n)
+    coefficients.numbers.push_back(
+        {is_of_legs ? fmt::format("leg {}", n + 1) : kTwist[n % 6],
+         effect.parameters[n],
+         has_deviations ? effect.standard_deviation[n] : std::numeric_limits<double>::quiet_NaN(),
+         is_of_legs || n % 6 < 3 ? "m" : "rad",
+         true});
+  return {coefficients};
+}
+
 }  // namespace
+
+bool IsOfLegs(const Effect& unknown) {
+  const auto site = unknown.found.find("site");
+  return site != unknown.found.end() && site->second == "leg";
+}
 
 bool IsShown(const EffectNumber& number) {
   return number.is_carried && (number.value != 0.0 || std::isfinite(number.standard_deviation));
@@ -73,7 +94,8 @@ bool IsShown(const EffectNumber& number) {
 std::vector<EffectParameter> ParametersOf(const Effect& effect,
                                           const std::vector<std::string>& labels) {
   const EffectKind* kind = FindEffectKind(effect.name);
-  if (kind == nullptr || kind->IsFault()) return {};
+  if (kind == nullptr) return CoefficientsOf(effect);
+  if (kind->IsFault()) return {};
   CHECK_EQ(effect.parameters.size(), kind->SizeFor(effect.index)) << effect.name;
   const bool has_deviations = effect.standard_deviation.size() == effect.parameters.size();
   std::vector<EffectParameter> parameters;

@@ -28,8 +28,11 @@ struct EffectParameter {
 // that was not made.
 bool IsShown(const EffectNumber& number);
 
-// The parameters of an effect in the order of its kind. Empty for a fault of the data and for an
-// effect of no kind (unknown).
+// Whether the coefficients of an unknown are lengths of legs, not twists.
+bool IsOfLegs(const Effect& unknown);
+
+// The parameters of an effect in the order of its kind, the coefficients of an unknown. Empty for a
+// fault of the data.
 // labels: words for what is in effect.index, one each or none.
 std::vector<EffectParameter> ParametersOf(const Effect& effect,
                                           const std::vector<std::string>& labels);

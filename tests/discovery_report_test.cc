@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "model/described_effect.h"
 #include "report/discovery_json.h"
 #include "report/discovery_table.h"
 #include "report/discovery_words.h"
@@ -143,14 +144,36 @@ TEST(DiscoveryJson, ParametersAreNumbersListsOrRowsByTheirKind) {
   EXPECT_EQ(effects[3]["parameters"]["rotation"], 1e-4);
 }
 
-TEST(DiscoveryJson, AnUnknownHasNoParametersButADescription) {
+TEST(DiscoveryJson, AnUnknownHasADescriptionAndItsCoefficients) {
   Discovery discovery = testing::MakeDiscovery();
   discovery.effects.resize(1);
-  discovery.effects[0].effect = Effect{"unknown", {}, {}, {}, {}, {}};
+  DiscoveredEffect& found = discovery.effects[0];
+  found.effect = Effect{"unknown", {}, {}, {}, {}, {}};
+  EXPECT_EQ(Written(discovery)["effects"][0]["parameters"], Json::object());
+
+  found.effect = DescribedEffect("tool", "payload", 2, 3.0, 1.5);
+  found.effect.parameters << 1e-4, 2e-4, 3e-4, 4e-4, 5e-4, 6e-4;
   const Json effect = Written(discovery)["effects"][0];
   EXPECT_EQ(effect["name"], "unknown");
-  EXPECT_EQ(effect["parameters"], Json::object());
+  EXPECT_EQ(effect["parameters"]["coefficients"], (Json{1e-4, 2e-4, 3e-4, 4e-4, 5e-4, 6e-4}));
+  EXPECT_EQ(effect["units"]["coefficients"], "m, rad");
+  EXPECT_EQ(effect["found"]["driver"], "payload");
+  EXPECT_EQ(effect["reference"]["centre"], Json{3.0});
   EXPECT_EQ(effect["description"], "Leg 3 moves 312 ppm further than it reports.");
+  EXPECT_THAT(
+      SizesOf(found),
+      ElementsAre("coefficients: dx 0.1 mm, dy 0.2 mm, dz 0.3 mm, rx 0.4 mrad, ry 0.5 mrad, "
+                  "rz 0.6 mrad"));
+
+  found.effect = DescribedEffect("leg", "time", 1, 0.0, 1.0);
+  found.effect.parameters << 1e-4, 2e-4, 3e-4, 4e-4, 5e-4, 6e-4;
+  EXPECT_EQ(Written(discovery)["effects"][0]["units"]["coefficients"], "m");
+  EXPECT_THAT(SizesOf(found)[0], HasSubstr("leg 6 0.6 mm"));
+
+  found.effect.found["site"] = "platform";  // a map of the pose, six numbers a term
+  found.effect.parameters = Eigen::VectorXd::LinSpaced(36, 1.0, 36.0);
+  EXPECT_EQ(Written(discovery)["effects"][0]["parameters"]["coefficients"][5][0], 31.0);
+  EXPECT_THAT(SizesOf(found), ElementsAre("coefficients: 36, in model.yaml"));
 }
 
 TEST(DiscoveryJson, AFaultSaysWhatWasFound) {
