@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "report/discovery_words.h"
 #include "report/quantity.h"
 
@@ -66,6 +70,20 @@ std::string GapTable(const Gap& gap) {
          GapLine("  noise floor", gap.noise_floor);
 }
 
+using NamesByNeeds = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+NamesByNeeds ByNeeds(const std::vector<NotTestable>& effects) {
+  NamesByNeeds groups;
+  for (const NotTestable& effect : effects) {
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& known) {
+      return known.first == effect.needs;
+    });
+    if (group == groups.end()) group = groups.insert(groups.end(), {effect.needs, {}});
+    group->second.push_back(effect.name);
+  }
+  return groups;
+}
+
 }  // namespace
 
 std::string DiscoveryTable(const std::string& dataset, const Discovery& discovery) {
@@ -78,9 +96,9 @@ std::string DiscoveryTable(const std::string& dataset, const Discovery& discover
   std::vector<std::string> lines = NoiseSentences(discovery.noise);
   if (!lines.empty()) text += Paragraph("noise", fmt::format("{}", fmt::join(lines, " ")));
   lines.clear();
-  for (const NotTestable& effect : discovery.not_testable)
-    lines.push_back(fmt::format("{} (needs {})", effect.name, effect.needs));
-  if (!lines.empty()) text += Paragraph("not testable", fmt::format("{}", fmt::join(lines, ", ")));
+  for (const auto& [needs, names] : ByNeeds(discovery.not_testable))
+    lines.push_back(fmt::format("{} (needs {})", fmt::join(names, ", "), needs));
+  if (!lines.empty()) text += Paragraph("not testable", fmt::format("{}", fmt::join(lines, "; ")));
   lines.clear();
   for (const Detectable& effect : discovery.detectable)
     lines.push_back(fmt::format(

@@ -16,7 +16,9 @@ constexpr std::size_t kMostNumbers = 18;
 std::string NamesOf(const Discovery& discovery) {
   std::vector<std::string> names;
   for (const DiscoveredEffect& found : discovery.effects) {
-    std::string name = fmt::format("{} ({})", found.effect.name, CarriersOf(found));
+    const bool has_name = found.effect.name != kUnknownEffect;
+    std::string name = fmt::format(
+        "{} ({})", has_name ? found.effect.name : "something without a name", CarriersOf(found));
     if (!found.could_also_be.empty()) name += " or what cannot be told from it";
     names.push_back(name);
   }
@@ -34,8 +36,8 @@ std::string VerdictSentence(const Discovery& discovery) {
                          NamesOf(discovery));
     case Verdict::kPartlyExplained:
       return fmt::format(
-          "The gap between prediction and measurement is explained in part, by {}; something that "
-          "has no name here is left.",
+          "The gap between prediction and measurement is explained in part, by {}; there is more "
+          "than noise left.",
           NamesOf(discovery));
     case Verdict::kUndecided:
       break;

@@ -254,6 +254,12 @@ TEST(DiscoveryTable, SaysPlainlyThatNothingIsThere) {
   EXPECT_THAT(DiscoveryTable("demo", discovery), HasSubstr("do not say why"));
 }
 
+TEST(DiscoveryTable, WhatNeedsTheSameStandsTogether) {
+  Discovery discovery;
+  discovery.not_testable = {{"a", "legs"}, {"b", "time"}, {"c", "legs"}};
+  EXPECT_THAT(DiscoveryTable("demo", discovery), HasSubstr("a, c (needs legs); b (needs time)"));
+}
+
 TEST(DiscoveryTable, LinesFitTheScreenAndNoWordIsLost) {
   Discovery discovery = testing::MakeDiscovery();
   discovery.effects[0].description = "Begin";
