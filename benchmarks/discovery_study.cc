@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gflags/gflags.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
@@ -110,6 +111,9 @@ void PrintGap(const std::vector<Trial>& trials) {
       100 * Quantile(closed, 0.1));
   PrintShare("held out more than 2 % worse than without",
              Count(trials, [](const Trial& t) { return t.after > 1.02 * t.before; }));
+  PrintShare("and than a refit that knows the effect", Count(trials, [](const Trial& t) {
+               return t.after > 1.02 * std::max(t.before, t.oracle);
+             }));
   fmt::print("| processor seconds: median, 99th percentile, longest | {:.2f}, {:.2f}, {:.2f} |\n",
              Quantile(seconds, 0.5),
              Quantile(seconds, 0.99),

@@ -2,6 +2,7 @@
 #include "hidden/as_dataset.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 namespace hexcal::hidden {
 namespace {
@@ -106,8 +107,10 @@ Dataset AsPoseDataset(const Case& made, Dice* dice) {
   measurement.kind = Measurement::Kind::kPoses;
   measurement.where = FileLocation("measured.csv");
   const Motion& tracker_from_world = scene.rows.front().tracker_from_world;
-  // One noise for all: that of the first row, without its correlations.
-  const Six sigma = SeenPoseCovariance(scene, scene.rows.front()).diagonal().cwiseSqrt();
+  // One noise for all, without correlations: what the first row's pose is uncertain by in one
+  // number where the other five are known.
+  const Eigen::Matrix<double, 6, 6> seen = SeenPoseCovariance(scene, scene.rows.front());
+  const Six sigma = seen.inverse().diagonal().cwiseSqrt().cwiseInverse();
   measurement.pose_noise = PoseNoise{sigma.head<3>(), sigma.tail<3>()};
   for (std::size_t i = 0; i < scene.rows.size(); ++i) {
     const Row& row = scene.rows[i];
