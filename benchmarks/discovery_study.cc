@@ -180,6 +180,7 @@ void PrintUnlisted(const Cell& cell) {
              Count(trials, [](const Trial& t) { return t.IsUnknownOrRightSite(); }));
   PrintShare("one wrong name, confidently",
              Count(trials, [](const Trial& t) { return t.IsConfidentlyWrong(); }));
+  PrintShare("a wrong name or class", Count(trials, [](const Trial& t) { return t.IsWrong(); }));
   PrintShare("any single name", Count(trials, [](const Trial& t) {
                return !t.found.empty() && t.found[0].name != "unknown" &&
                       t.found[0].could_also_be.empty();

@@ -62,6 +62,9 @@ TEST(Trial, JudgesWhatHasNoName) {
   EXPECT_EQ(judge({"tool_sag", {}, {"leg_gain"}}), std::pair(true, false));
   EXPECT_EQ(judge({"tool_sag", {}, {"base_drift"}}), std::pair(false, false));
   EXPECT_EQ(judge({"tool_sag", {}, {}}), std::pair(false, true));
+  EXPECT_TRUE(Hidden(truth, {{"tool_sag", {}, {"base_drift"}}}).IsWrong());
+  EXPECT_FALSE(Hidden(truth, {{"tool_sag", {}, {"unknown"}}}).IsWrong());
+  EXPECT_FALSE(Hidden(truth, {}).IsWrong());
 }
 
 TEST(Trial, ClosesAGap) {

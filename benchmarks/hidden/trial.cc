@@ -122,6 +122,8 @@ bool Trial::IsConfidentlyWrong() const {
   return !found.empty() && found[0].could_also_be.empty() && !IsUnknownOrRightSite();
 }
 
+bool Trial::IsWrong() const { return !found.empty() && !IsUnknownOrRightSite(); }
+
 double Trial::GapClosed() const {
   const double gap = before * before - oracle * oracle;
   if (!(before * before > 1.5 * oracle * oracle)) return std::numeric_limits<double>::quiet_NaN();

@@ -44,6 +44,7 @@ struct Trial {
   bool HasCarrierAlone() const;
   bool IsUnknownOrRightSite() const;
   bool IsConfidentlyWrong() const;  // one name, no class, of another site
+  bool IsWrong() const;             // a name or a class, none of it unknown or of the site
   double GapClosed() const;  // of what the oracle closes; NaN where that is too little to tell
 };
 
