@@ -81,10 +81,15 @@ std::vector<std::string> DriversOf(const FormLibrary& library) {
 }
 
 std::vector<std::string> UnitsOf(const FormLibrary& library) {
-  return Each(library, [](const Effect& effect) {
-    const EffectKind* kind = FindEffectKind(effect.name);
-    return kind != nullptr ? std::string(kind->UnitOf(0)) : std::string("m");
-  });
+  std::vector<std::string> units;
+  for (std::size_t f = 0; f < library.families.size(); ++f) {
+    const FormDefinition& form = FirstOf(library, static_cast<int>(f));
+    const EffectKind* kind = FindEffectKind(form.effect.name);
+    Eigen::Index number = 0;
+    if (form.directions.size() > 0) form.directions.col(0).maxCoeff(&number);
+    units.emplace_back(kind != nullptr ? kind->UnitOf(static_cast<int>(number)) : "m");
+  }
+  return units;
 }
 
 DiscoveredEffect AnswerFor(const Effect& effect, const Dataset& dataset) {

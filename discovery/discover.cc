@@ -128,6 +128,9 @@ class Discoverer {
     machine.world_from_base = refit_.mounts.world_from_base;
     machine.platform_from_tool = refit_.mounts.platform_from_tool;
     machine.hexapod = dataset_.hexapod;
+    // Where the first move came from must not depend on the rows that are predicted.
+    if (machine.hexapod && !machine.hexapod->home)
+      machine.hexapod->home = HomePose(&*machine.hexapod, reported_);
     if (observations_.tracker_from_world)
       machine.world_from_tracker = observations_.tracker_from_world->Inverse();
     if (fault_) machine.effects.push_back(fault_->effect);

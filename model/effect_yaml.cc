@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "model/data_fault.h"
+#include "model/described_effect.h"
 
 namespace hexcal {
 namespace {
@@ -164,13 +165,11 @@ void CheckFault(const Effect& effect, const Location& where) {
 void CheckDescription(const Effect& effect, const Location& where) {
   if (effect.name != kUnknownEffect || effect.parameters.size() == 0) return;
   static const std::vector<std::string> kSites = {"base", "tool", "leg"};
-  static const std::vector<std::string> kDrivers = {
-      "time", "temperature", "payload", "leg_length", "x", "y", "z", "rx", "ry", "rz"};
   const auto has = [&](const char* name, const std::vector<std::string>& words) {
     const auto found = effect.found.find(name);
     return found != effect.found.end() && std::count(words.begin(), words.end(), found->second) > 0;
   };
-  if (!has("site", kSites) || !has("driver", kDrivers) || effect.reference.empty())
+  if (!has("site", kSites) || !has("driver", DriverNames()) || effect.reference.empty())
     throw InputError(where,
                      "an unknown effect with coefficients that does not say of what",
                      "reference: with centre, half_range and power, and found: with site (base, "
