@@ -14,7 +14,7 @@ namespace hexcal {
 // Site and driver of each family of a library, in the table's words.
 std::vector<std::string> SitesOf(const FormLibrary& library);
 std::vector<std::string> DriversOf(const FormLibrary& library);
-// Unit of the first parameter of each family.
+// Unit of the first coefficient of each family.
 std::vector<std::string> UnitsOf(const FormLibrary& library);
 
 // Everything of an effect but its statistics. kind_poses: the dataset has no marker readings.
