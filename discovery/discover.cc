@@ -115,11 +115,25 @@ class Discoverer {
     Mounts start = MountsOf(result_.base_and_tool);
     start.world_from_base = Plus(start.world_from_base, Vector6d(fit.mounts.head<6>()));
     start.platform_from_tool = Plus(start.platform_from_tool, Vector6d(fit.mounts.segment<6>(6)));
-    refit_ = RefitMachine(data_, start, effects, selection_.noise);
+    // Where nothing was found base and tool stay as they were.
+    if (effects.empty())
+      refit_ = Unchanged();
+    else
+      refit_ = RefitMachine(data_, start, effects, selection_.noise);
     if (!refit_.converged)
       result_.warnings.emplace_back("the refit with the effects did not converge");
     FillMachine();
     FillEstimate();
+  }
+
+  Refit Unchanged() const {
+    Refit same;
+    same.mounts = MountsOf(result_.base_and_tool);
+    same.problem = MakeGapProblem(data_, same.mounts, {}, {});
+    same.covariance =
+        FitJointly(same.problem.linear, selection_.noise, {}, kPrior, Eigen::VectorXd()).covariance;
+    same.converged = true;
+    return same;
   }
 
   void FillMachine() {
@@ -306,8 +320,9 @@ class Discoverer {
     const bool none = result_.effects.empty();
     if (none) {
       const Estimate& alone = result_.base_and_tool;
+      // Heavy tails and a robot that does not repeat are noise, and are said to be.
       const bool is_stated = !alone.noise.estimated;
-      const bool has_gap = is_stated && alone.noise_scale > kMuchMore &&
+      const bool has_gap = is_stated && result_.noise.scale > kMuchMore &&
                            ChiSquareTail(alone.chi_square, alone.degrees_of_freedom) < kGapIsThere;
       return has_gap ? Verdict::kUndecided : Verdict::kAgrees;
     }

@@ -175,6 +175,38 @@ void CollectShape(const std::vector<SeenPose>& seen, LinearProblem* problem) {
   problem->shape_nuisance.setZero(problem->shape_error.size(), 12);
 }
 
+// Coordinates of all markers of both bodies x this pose's shape rows.
+Eigen::MatrixXd WholeBasis(const SeenPose& seen, const std::array<int, 2>& markers) {
+  const Eigen::Index columns =
+      seen.bodies[0].shape_basis.cols() + seen.bodies[1].shape_basis.cols();
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(3 * (markers[0] + markers[1]), columns);
+  Eigen::Index at = 0;
+  for (int b = 0; b < 2; ++b) {
+    const SeenBody& body = seen.bodies[b];
+    for (std::size_t i = 0; i < body.markers.size(); ++i)
+      whole.block(3 * (b * markers[0] + body.markers[i]), at, 3, body.shape_basis.cols()) =
+          body.shape_basis.middleRows(3 * static_cast<Eigen::Index>(i), 3);
+    at += body.shape_basis.cols();
+  }
+  return whole;
+}
+
+// Every marker off its place, and moving away from it over the poses.
+Eigen::MatrixXd MarkerTrend(const SeenPose& seen, const std::array<int, 2>& markers, double order) {
+  const int all = 3 * (markers[0] + markers[1]);
+  Eigen::MatrixXd trend;
+  for (int n = 0; n < all; ++n) {
+    Motion motion;
+    for (int b = 0; b < 2; ++b) motion.markers[b] = Eigen::Matrix3Xd::Zero(3, markers[b]);
+    const int marker = n / 3, body = marker < markers[0] ? 0 : 1;
+    motion.markers[body](n % 3, marker - body * markers[0]) = 1.0;
+    const Eigen::VectorXd shape = SeenBy(seen, Motion(), motion).shape;
+    if (n == 0) trend.resize(shape.size(), 2 * all);
+    trend.col(n) = shape, trend.col(all + n) = order * shape;
+  }
+  return trend;
+}
+
 }  // namespace
 
 GapData MakeGapData(const Dataset& dataset, const std::vector<Pose3d>& reported) {
@@ -206,6 +238,10 @@ GapProblem MakeGapProblem(const GapData& data,
   linear.nuisance.resize(6 * poses, 12);
   problem.trend.resize(6 * poses, 12);
   CollectShape(problem.seen, &linear);
+  const auto& bodies = data.dataset->measurement->bodies;
+  const std::array<int, 2> markers = {static_cast<int>(bodies[0].markers.size()),
+                                      static_cast<int>(bodies[1].markers.size())};
+  linear.shape_trend.resize(linear.shape_error.size(), 6 * (markers[0] + markers[1]));
   ColumnWriter writer(library, poses, static_cast<int>(linear.shape_error.size()), &linear);
   int shape_at = 0;
   for (int k = 0; k < poses; ++k) {
@@ -222,6 +258,10 @@ GapProblem MakeGapProblem(const GapData& data,
     problem.trend.middleRows<6>(6 * k) = order * sites.mounts;
     AddComponents(data, sites, seen, &linear);
     writer.Write(k, sites, seen, here, visit, shape_at);
+    if (linear.shape_freedom[k] > 0)
+      linear.shape_trend.middleRows(shape_at, linear.shape_freedom[k]) =
+          MarkerTrend(seen, markers, order);
+    linear.shape_basis.push_back(WholeBasis(seen, markers));
     shape_at += linear.shape_freedom[k];
     if (hexapod != nullptr) problem.legs_by_error.push_back(PseudoInverse(sites.leg, 1e-12));
   }

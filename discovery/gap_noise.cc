@@ -144,6 +144,9 @@ void FitTails(const LinearProblem& problem, GapNoise* noise) {
   }
 }
 
+// A mean and a slope taken out of a series of n make it look less correlated than it is.
+double Taken(double correlation, int n) { return (2.0 + 4.0 * std::max(correlation, 0.0)) / n; }
+
 void FitCorrelation(const LinearProblem& problem, const Eigen::MatrixXd& trend, GapNoise* noise) {
   Eigen::MatrixXd all(problem.error.size(), problem.nuisance.cols() + trend.cols());
   all << problem.nuisance, trend;
@@ -153,11 +156,46 @@ void FitCorrelation(const LinearProblem& problem, const Eigen::MatrixXd& trend, 
   for (int k = 1; k < problem.poses; ++k)
     product += p.residual.segment<6>(6 * k).dot(p.residual.segment<6>(6 * (k - 1)));
   square = p.residual.squaredNorm();
-  // Projecting p columns out of n rows leaves a correlation of about -p / n.
-  const double rows = static_cast<double>(p.residual.size());
-  const double expected = -static_cast<double>(p.basis.cols()) / rows;
-  const double found = product / square - expected;
-  if (found > kClear / std::sqrt(rows)) noise->correlation = std::min(found * 1.05, 0.97);
+  const double rows = static_cast<double>(p.residual.size()), raw = product / square;
+  const double found = raw + Taken(raw, problem.poses);
+  if (found > kClear / std::sqrt(rows)) noise->correlation = std::min(found, 0.97);
+}
+
+// Rows of each pose: where they start.
+std::vector<Eigen::Index> ShapeStarts(const LinearProblem& problem) {
+  std::vector<Eigen::Index> starts = {0};
+  for (const int rows : problem.shape_freedom) starts.push_back(starts.back() + rows);
+  return starts;
+}
+
+// Shape rows of pose k that the rows of the pose before would foretell, were every marker's
+// reading the same: basis_k' basis_(k-1) rows.
+Eigen::MatrixXd Foretold(const LinearProblem& problem,
+                         const Eigen::MatrixXd& rows,
+                         const std::vector<Eigen::Index>& starts,
+                         int k) {
+  return problem.shape_basis[k].transpose() *
+         (problem.shape_basis[k - 1] * rows.middleRows(starts[k - 1], starts[k] - starts[k - 1]));
+}
+
+void FitShapeCorrelation(const LinearProblem& problem, GapNoise* noise) {
+  Eigen::MatrixXd all(problem.shape_error.size(),
+                      problem.shape_nuisance.cols() + problem.shape_trend.cols());
+  all << problem.shape_nuisance, problem.shape_trend;
+  const Projection p = Project(WhitenShapeRows(problem, *noise, all),
+                               WhitenShapeRows(problem, *noise, problem.shape_error));
+  const std::vector<Eigen::Index> starts = ShapeStarts(problem);
+  double product = 0.0, square = 0.0;
+  for (int k = 1; k < problem.poses; ++k) {
+    const Eigen::VectorXd before = Foretold(problem, p.residual, starts, k);
+    product += before.dot(p.residual.segment(starts[k], starts[k + 1] - starts[k]));
+    square += before.squaredNorm();
+  }
+  if (!(square > 0.0)) return;
+  const double raw = product / square;
+  const double found = raw + Taken(raw, problem.poses);
+  if (found > kClear / std::sqrt(static_cast<double>(p.residual.size())))
+    noise->shape_correlation = std::min(found, 0.97);
 }
 
 void FitShape(const LinearProblem& problem, GapNoise* noise) {
@@ -174,9 +212,11 @@ void FitShape(const LinearProblem& problem, GapNoise* noise) {
   noise->shape_factor = squared.sum() / left;
   if (!(noise->shape_factor > 0.0)) noise->shape_factor = 1.0;
   const double tail = TailFreedom(squared, dimension);
-  if (tail == 0.0) return;
-  noise->shape_weight = Weights(squared, tail, dimension);
-  noise->shape_factor = noise->shape_weight.dot(squared) / left;
+  if (tail != 0.0) {
+    noise->shape_weight = Weights(squared, tail, dimension);
+    noise->shape_factor = noise->shape_weight.dot(squared) / left;
+  }
+  FitShapeCorrelation(problem, noise);
 }
 
 // -2 ln of the restricted likelihood, without what is the same for all noises.
@@ -222,6 +262,14 @@ Eigen::MatrixXd WhitenShapeRows(const LinearProblem& problem,
   Eigen::MatrixXd white = m;
   for (Eigen::Index row = 0; row < m.rows(); ++row)
     white.row(row) *= std::sqrt(noise.shape_weight[problem.shape_pose[row]] / noise.shape_factor);
+  if (noise.shape_correlation == 0.0 || m.rows() == 0) return white;
+  const std::vector<Eigen::Index> starts = ShapeStarts(problem);
+  const double rho = noise.shape_correlation, rest = 1.0 / std::sqrt(1.0 - rho * rho);
+  for (int k = problem.poses - 1; k > 0; --k) {
+    const Eigen::MatrixXd before = Foretold(problem, white, starts, k);
+    auto rows = white.middleRows(starts[k], starts[k + 1] - starts[k]);
+    rows = rest * (rows - rho * before);
+  }
   return white;
 }
 

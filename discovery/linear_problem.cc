@@ -23,6 +23,7 @@ LinearProblem LinearProblem::Restricted(const std::vector<int>& some) const {
     new_pose[some[i]] = static_cast<int>(i);
     for (int axis = 0; axis < 6; ++axis) pose_rows.push_back(6 * some[i] + axis);
     if (!shape_freedom.empty()) part.shape_freedom.push_back(shape_freedom[some[i]]);
+    if (!shape_basis.empty()) part.shape_basis.push_back(shape_basis[some[i]]);
   }
   for (std::size_t row = 0; row < shape_pose.size(); ++row) {
     const auto found = new_pose.find(shape_pose[row]);
@@ -36,6 +37,7 @@ LinearProblem LinearProblem::Restricted(const std::vector<int>& some) const {
   part.shape_error = Rows(shape_error, shape_rows);
   part.shape_nuisance = Rows(shape_nuisance, shape_rows);
   part.shape_columns = std::make_shared<Eigen::MatrixXd>(Rows(*shape_columns, shape_rows));
+  part.shape_trend = Rows(shape_trend, shape_rows);
   part.shape_of = shape_of;
   for (const std::vector<Matrix6d>& component : components) {
     part.components.emplace_back();

@@ -52,6 +52,10 @@ struct LinearProblem {
   std::shared_ptr<const Eigen::MatrixXd> shape_columns;
   std::vector<int> shape_of;
   std::vector<int> shape_freedom;  // rows less the six numbers of each body, by pose
+  // By pose: coordinates of all markers (3 each, whitened) x shape rows. Two poses' rows are of
+  // different combinations of markers; these tell how they hang together.
+  std::vector<Eigen::MatrixXd> shape_basis;
+  Eigen::MatrixXd shape_trend;  // what may look like correlated shapes: markers off, and moving
 
   Eigen::VectorXd scale;  // of each column: the prior 1-sigma of its coefficient
   std::vector<Form> forms;

@@ -51,8 +51,8 @@ void BaseFlexure(const EffectInput& input, const T* compliance, Corrections<T>* 
   for (int k = 0; k < 3; ++k) corrections->base_twist[3 + k] += compliance[0] * moment[k];
 }
 
-// parameters: deflection, rotation. Both along the axes of A and at its origin, so they stand right
-// of base_from_platform: there no tool need be known.
+// parameters: deflection, rotation. Gravity as the platform sees it, its numbers taken as a twist
+// right of platform_from_tool: the tool gives way and tips about its own origin.
 template <typename T>
 void ToolSag(const EffectInput& input, const T* parameters, Corrections<T>* corrections) {
   const Visit& visit = input.visit;
@@ -60,8 +60,8 @@ void ToolSag(const EffectInput& input, const T* parameters, Corrections<T>* corr
       visit.base_from_platform.rotation.conjugate() * visit.gravity_in_base;
   const Eigen::Vector3d axis = Eigen::Vector3d::UnitZ().cross(down);
   for (int k = 0; k < 3; ++k) {
-    corrections->platform_twist[k] += parameters[0] * down[k];
-    corrections->platform_twist[3 + k] += parameters[1] * axis[k];
+    corrections->tool_twist[k] += parameters[0] * down[k];
+    corrections->tool_twist[3 + k] += parameters[1] * axis[k];
   }
 }
 

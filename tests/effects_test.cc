@@ -328,10 +328,10 @@ TEST(ToolSag, FollowsGravityInThePlatform) {
   visit.base_from_platform.rotation = Exp(Eigen::Vector3d(M_PI / 2, 0, 0));
   const Corrections<double> c = Apply("tool_sag", {1e-4, 1e-3}, visit);
   // z cross -y is +x.
-  EXPECT_TRUE(MatrixNear(c.platform_twist, Six(0, -1e-4, 0, 1e-3, 0, 0), 1e-18));
+  EXPECT_TRUE(MatrixNear(c.tool_twist, Six(0, -1e-4, 0, 1e-3, 0, 0), 1e-18));
   visit.base_from_platform.rotation.setIdentity();
   const Corrections<double> level = Apply("tool_sag", {1e-4, 1e-3}, visit);
-  EXPECT_TRUE(MatrixNear(level.platform_twist, Six(0, 0, -1e-4, 0, 0, 0), 1e-18));
+  EXPECT_TRUE(MatrixNear(level.tool_twist, Six(0, 0, -1e-4, 0, 0, 0), 1e-18));
 }
 
 TEST(ToolThermal, FollowsTheTemperature) {

@@ -97,10 +97,8 @@ HiddenEffect ToolSag(const Scene&, const DetailOptions&, Dice* dice) {
   effect.add =
       [](const Scene& scene, const Row& row, const Eigen::VectorXd& p, Additions* additions) {
         const Eigen::Vector3d down = row.base_from_platform.turn.transpose() * scene.gravity;
-        const Eigen::Matrix3d tool_from_platform = scene.platform_from_tool.turn.transpose();
         Six twist;
-        twist << p[0] * (tool_from_platform * down),
-            p[1] * (tool_from_platform * Eigen::Vector3d::UnitZ().cross(down));
+        twist << p[0] * down, p[1] * Eigen::Vector3d::UnitZ().cross(down);
         additions->tool_twist += twist;
       };
   return effect;
