@@ -219,16 +219,25 @@ void FitShape(const LinearProblem& problem, GapNoise* noise) {
   FitShapeCorrelation(problem, noise);
 }
 
-// -2 ln of the restricted likelihood, without what is the same for all noises.
+// -2 ln of the likelihood of pose and shape rows, without what is the same for all noises.
 double Deviance(const LinearProblem& problem, const GapNoise& noise) {
-  const Eigen::MatrixXd nuisance = WhitenPoseRows(problem, noise, problem.nuisance);
-  const Projection p = Project(nuisance, WhitenPoseRows(problem, noise, problem.error));
-  double sum = p.residual.squaredNorm();
+  const Projection pose = Project(WhitenPoseRows(problem, noise, problem.nuisance),
+                                  WhitenPoseRows(problem, noise, problem.error));
+  double sum = pose.residual.squaredNorm();
   for (int k = 0; k < problem.poses; ++k) {
     sum += 2.0 * noise.Root(problem, k).diagonal().array().log().sum();
     sum -= 6.0 * std::log(noise.weight[k]);
   }
-  return sum + 6.0 * (problem.poses - 1) * std::log1p(-noise.correlation * noise.correlation);
+  sum += 6.0 * (problem.poses - 1) * std::log1p(-noise.correlation * noise.correlation);
+  if (problem.shape_error.size() == 0) return sum;
+  const Projection shape = Project(WhitenShapeRows(problem, noise, problem.shape_nuisance),
+                                   WhitenShapeRows(problem, noise, problem.shape_error));
+  sum += shape.residual.squaredNorm();
+  const double kept = 1.0 - noise.shape_correlation * noise.shape_correlation;
+  for (int k = 0; k < problem.poses; ++k)
+    sum += problem.shape_freedom[k] *
+           std::log((k > 0 ? kept : 1.0) * noise.shape_factor / noise.shape_weight[k]);
+  return sum;
 }
 
 }  // namespace

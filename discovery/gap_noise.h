@@ -19,8 +19,8 @@ struct GapNoise {
   double shape_factor = 1.0;  // on the variance of shape rows
   Eigen::VectorXd shape_weight;
   double shape_correlation = 0.0;  // of a marker's readings from one pose to the next
-  // -2 ln of the restricted likelihood of pose and shape rows (Gaussian part), to compare noises
-  // of one problem.
+  // -2 ln of the likelihood of pose and shape rows (Gaussian part), to compare noises of one
+  // problem.
   double deviance = 0.0;
 
   // Lower Cholesky factor of pose k's covariance, without the correlation.

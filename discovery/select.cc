@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "discovery/family_wise.h"
+#include "discovery/log_tail.h"
 
 namespace hexcal {
 namespace {
@@ -92,8 +94,27 @@ class Selector {
     step->p_value = *std::min_element(p_values.begin(), p_values.end());
     if (step->p_value > alpha) return -1;
     const int best = FirstOf(step->families, [&](std::size_t k) { return p_values[k] <= alpha; });
-    if (best >= 0) step->p_value = p_values[best];
-    return best;
+    if (best < 0) return best;
+    step->p_value = p_values[best];
+    const FamilyScore& family = step->families[best];
+    const double against_correlation = ByDeviance(family.best);
+    if (against_correlation < -family.log10_p)
+      step->p_value = null.PValue(null.Paid(family.family, against_correlation));
+    return step->p_value <= alpha ? best : -1;
+  }
+
+  // Noise that hangs together over time looks like a step or a drift, and the more so the better
+  // that is fitted. So where neighbours are correlated without the form, it must also win against
+  // that correlation: -log10 p of the fall of the deviance, each with its own noise. Else no bound.
+  double ByDeviance(const Score& score) const {
+    const GapNoise without = NoiseWith(result_.chosen);
+    if (without.correlation == 0.0 && without.shape_correlation == 0.0)
+      return std::numeric_limits<double>::infinity();
+    std::vector<int> with = result_.chosen;
+    with.push_back(score.form);
+    const double fall = without.deviance - NoiseWith(with).deviance;
+    if (!(fall > 0.0)) return 0.0;
+    return -Log10FisherTail(fall / score.rank, score.rank, 1e6);
   }
 
   // The first family that passes; one of last resort only where no other does.
@@ -122,10 +143,15 @@ class Selector {
   }
 
   int GateByThresholds(int number, SelectionStep* step) const {
-    return FirstOf(step->families, [&](std::size_t k) {
-      const FamilyScore& family = step->families[k];
-      return -family.log10_p >= options_.thresholds[family.family] + number * std::log10(2.0);
+    const auto needed = [&](const FamilyScore& family) {
+      return options_.thresholds[family.family] + number * std::log10(2.0);
+    };
+    const int best = FirstOf(step->families, [&](std::size_t k) {
+      return -step->families[k].log10_p >= needed(step->families[k]);
     });
+    if (best < 0) return best;
+    const FamilyScore& family = step->families[best];
+    return ByDeviance(family.best) >= needed(family) ? best : -1;
   }
 
   // A pair may explain more than the best single form and the best to go with it.
