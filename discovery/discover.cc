@@ -103,8 +103,13 @@ class Discoverer {
   // The exact machine, from where the linear fit says.
   void Grow() {
     Report("refit", 0, 1);
+    // What the data determine badly is held to the size that they make likely.
+    const double width =
+        selection_.chosen.empty()
+            ? kPrior
+            : Scorer(problem_.linear.Only(selection_.chosen), selection_.noise).LikeliestWidth(0);
     const JointFit fit =
-        FitJointly(problem_.linear, selection_.noise, selection_.chosen, kPrior, Eigen::VectorXd());
+        FitJointly(problem_.linear, selection_.noise, selection_.chosen, width, Eigen::VectorXd());
     std::vector<Effect> effects;
     Eigen::Index at = 0;
     for (const int form : selection_.chosen) {
@@ -119,7 +124,7 @@ class Discoverer {
     if (effects.empty())
       refit_ = Unchanged();
     else
-      refit_ = RefitMachine(data_, start, effects, selection_.noise);
+      refit_ = RefitMachine(data_, start, effects, selection_.noise, width);
     if (!refit_.converged)
       result_.warnings.emplace_back("the refit with the effects did not converge");
     FillMachine();

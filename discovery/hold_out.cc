@@ -7,11 +7,10 @@
 #include <set>
 
 #include "discovery/joint_fit.h"
+#include "discovery/score.h"
 
 namespace hexcal {
 namespace {
-
-constexpr double kPrior = 3.0;  // in plausible sizes: what the data do not determine stays small
 
 // Poses of each fold: every run of `folds` neighbours is dealt out in a drawn order, so that each
 // fold covers the whole time and no fold has two poses side by side by design.
@@ -47,7 +46,9 @@ Eigen::VectorXd Predicted(const LinearProblem& train,
                           const LinearProblem& test,
                           const GapNoise& noise,
                           const std::vector<int>& forms) {
-  const JointFit fit = FitJointly(train, noise, forms, kPrior, Eigen::VectorXd());
+  // What the poses determine badly is held to the size that they make likely.
+  const double width = forms.empty() ? 1.0 : Scorer(train.Only(forms), noise).LikeliestWidth(0);
+  const JointFit fit = FitJointly(train, noise, forms, width, Eigen::VectorXd());
   Eigen::VectorXd x(fit.mounts.size() + fit.coefficients.size());
   x << fit.mounts, fit.coefficients;
   return test.error - test.With(forms).nuisance * x;

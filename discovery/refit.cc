@@ -12,8 +12,8 @@ namespace hexcal {
 namespace {
 
 constexpr int kIterations = 20;
-constexpr double kConverged = 1e-3;  // of a standard deviation
-constexpr double kPrior = 30.0;      // in plausible sizes: it holds only what the data do not
+constexpr double kConverged = 1e-3;      // of a standard deviation
+constexpr double kHarmonicPrior = 30.0;  // in plausible sizes: as good as none
 
 bool IsCarrying(const Effect& effect, const EffectKind& kind, int number) {
   const ParameterKind& parameter = kind.ParameterOf(number);
@@ -91,7 +91,10 @@ Eigen::VectorXd PriorMean(const FormLibrary& library) {
       const EffectKind* kind = FindEffectKind(form.effect.name);
       int number = 0;
       form.directions.col(k).maxCoeff(&number);
-      const bool is_searched = kind != nullptr && kind->ParameterOf(number).is_search;
+      // Neither is a phase ever near zero beforehand.
+      const bool is_searched =
+          kind != nullptr && (kind->ParameterOf(number).is_search ||
+                              kind->ParameterOf(number).name.substr(0, 5) == "phase");
       // The step counts from the present value, so zero lies minus that value away.
       mean.push_back(is_searched ? 0.0 : -value);
     }
@@ -100,7 +103,8 @@ Eigen::VectorXd PriorMean(const FormLibrary& library) {
 
 class Refitter {
  public:
-  Refitter(const GapData& data, const GapNoise& noise) : data_(data), noise_(noise) {}
+  Refitter(const GapData& data, const GapNoise& noise, double prior_width)
+      : data_(data), noise_(noise), prior_width_(prior_width) {}
 
   // Gauss-Newton from where refit stands.
   void Run(Refit* refit) {
@@ -128,7 +132,7 @@ class Refitter {
   JointFit Fit(const Refit& refit, const FormLibrary& library) const {
     std::vector<int> all;
     for (std::size_t f = 0; f < library.forms.size(); ++f) all.push_back(static_cast<int>(f));
-    return FitJointly(refit.problem.linear, noise_, all, kPrior, PriorMean(library));
+    return FitJointly(refit.problem.linear, noise_, all, prior_width_, PriorMean(library));
   }
 
  private:
@@ -163,6 +167,7 @@ class Refitter {
 
   const GapData& data_;
   const GapNoise& noise_;
+  const double prior_width_;
 };
 
 // Starts the second harmonic of a periodic effect where the data show one.
@@ -186,9 +191,9 @@ bool StartSecondHarmonic(
   const GapProblem problem = MakeGapProblem(data, refit.mounts, refit.effects, library);
   std::vector<int> all;
   for (std::size_t f = 0; f < library.forms.size(); ++f) all.push_back(static_cast<int>(f));
-  const JointFit without =
-      FitJointly(problem.linear, noise, {all.begin(), all.end() - 2}, kPrior, Eigen::VectorXd());
-  const JointFit with = FitJointly(problem.linear, noise, all, kPrior, Eigen::VectorXd());
+  const JointFit without = FitJointly(
+      problem.linear, noise, {all.begin(), all.end() - 2}, kHarmonicPrior, Eigen::VectorXd());
+  const JointFit with = FitJointly(problem.linear, noise, all, kHarmonicPrior, Eigen::VectorXd());
   // Two numbers a leg, at some 1 in 100.
   if (without.squares - with.squares < 9.2 * static_cast<double>(legs)) return false;
   const Eigen::VectorXd pairs = with.coefficients.tail(2 * legs);
@@ -205,11 +210,12 @@ bool StartSecondHarmonic(
 Refit RefitMachine(const GapData& data,
                    const Mounts& start,
                    const std::vector<Effect>& effects,
-                   const GapNoise& noise) {
+                   const GapNoise& noise,
+                   double prior_width) {
   Refit refit;
   refit.mounts = start;
   refit.effects = effects;
-  Refitter refitter(data, noise);
+  Refitter refitter(data, noise, prior_width);
   refitter.Run(&refit);
   bool more = false;
   for (std::size_t e = 0; e < effects.size(); ++e)

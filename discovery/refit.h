@@ -10,7 +10,7 @@
 namespace hexcal {
 
 // The grown machine: base, tool and all parameters of the effects together, exactly (Gauss-Newton
-// over the forward model), with wide priors on the effects.
+// over the forward model), with priors on the effects.
 struct Refit {
   Mounts mounts;
   std::vector<Effect> effects;  // with standard deviations
@@ -20,10 +20,12 @@ struct Refit {
 };
 
 // effects: where to start. Free are the parameters of the legs or markers that an effect's index
-// names, and what was searched for but times of steps. noise: of the poses, held.
+// names, and what was searched for but times of steps. noise: of the poses, held. prior_width: of
+// the priors, in plausible sizes.
 Refit RefitMachine(const GapData& data,
                    const Mounts& start,
                    const std::vector<Effect>& effects,
-                   const GapNoise& noise);
+                   const GapNoise& noise,
+                   double prior_width);
 
 }  // namespace hexcal

@@ -25,19 +25,27 @@ double LogSumExp(const std::vector<double>& terms) {
   return most + std::log(sum);
 }
 
-// 2 ln of the Bayes factor of coefficients ~ N(0, scale^2) against zero, averaged over widths of
-// the prior: a component of squared size s per prior variance and squared projection a gives
-// w s / (1 + w s) a - ln(1 + w s).
+// 2 ln of the Bayes factor of coefficients ~ N(0, (width scale)^2) against zero: a component of
+// squared size s per prior variance and squared projection a gives w s / (1 + w s) a - ln(1 + w s)
+// with w the squared width.
+double EvidenceAt(double width,
+                  const Eigen::VectorXd& squares,
+                  const Eigen::VectorXd& projected,
+                  int rank) {
+  double sum = 0.0;
+  for (int k = 0; k < rank; ++k) {
+    const double s = width * width * squares[k];
+    sum += s / (1.0 + s) * projected[k] - std::log1p(s);
+  }
+  return sum;
+}
+
+// Averaged over widths of the prior.
 double Evidence(const Eigen::VectorXd& squares, const Eigen::VectorXd& projected, int rank) {
   std::vector<double> halves;
-  for (const double width : kWidths) {
-    double sum = 0.0;
-    for (int k = 0; k < rank; ++k) {
-      const double s = width * width * squares[k];
-      sum += s / (1.0 + s) * projected[k] - std::log1p(s);
-    }
-    halves.push_back(0.5 * sum - std::log(static_cast<double>(kWidths.size())));
-  }
+  for (const double width : kWidths)
+    halves.push_back(0.5 * EvidenceAt(width, squares, projected, rank) -
+                     std::log(static_cast<double>(kWidths.size())));
   return 2.0 * LogSumExp(halves);
 }
 
@@ -226,6 +234,18 @@ Eigen::MatrixXd Scorer::CoefficientCovariance(int f) const {
   const auto directions = block.directions.leftCols(block.rank);
   return d * directions * block.squares.head(block.rank).cwiseInverse().asDiagonal() *
          directions.transpose() * d;
+}
+
+double Scorer::LikeliestWidth(int f) const {
+  const Form& form = problem_.forms[f];
+  const Block& block = blocks_[f];
+  const Eigen::VectorXd projected = Rotated(form, block, columns_.transpose() * residual_);
+  double best = kWidths[0], most = -1e300;
+  for (const double width : kWidths) {
+    const double evidence = EvidenceAt(width, block.squares, projected, block.rank);
+    if (evidence > most) most = evidence, best = width;
+  }
+  return best;
 }
 
 double Scorer::Explained(int effect, int rival) const {

@@ -49,6 +49,9 @@ class Scorer {
   Eigen::VectorXd Coefficients(int form, double prior_scale) const;
   Eigen::MatrixXd CoefficientCovariance(int form) const;
 
+  // The width of the prior, in units of its scale, under which the data are most likely.
+  double LikeliestWidth(int form) const;
+
   // The part of `effect`'s explained sum of squares that `rival` explains as well, in [0, 1].
   double Explained(int effect, int rival) const;
 

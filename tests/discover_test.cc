@@ -173,7 +173,7 @@ TEST(Refit, EndsWhereTheGradientVanishes) {
   noise.factor.assign(problem.linear.components.size(), 0.0);
   noise.factor[0] = 1.0;
   noise.weight = noise.shape_weight = Eigen::VectorXd::Ones(problem.linear.poses);
-  const Refit refit = RefitMachine(data, mounts, {start}, noise);
+  const Refit refit = RefitMachine(data, mounts, {start}, noise, 30.0);
   ASSERT_TRUE(refit.converged);
   // Least squares by hand at the solution: the gradient vanishes, priors being wide.
   const LinearProblem& linear = refit.problem.linear;
