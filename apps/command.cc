@@ -7,6 +7,7 @@
 #include "apps/calibrate.h"
 #include "apps/compare.h"
 #include "apps/discover.h"
+#include "apps/import.h"
 #include "apps/predict.h"
 #include "apps/simulate.h"
 
@@ -112,6 +113,39 @@ const Command kDiscover = {
     &RunDiscover,
 };
 
+const Command kImport = {
+    "import",
+    "other programs' files to a dataset",
+    "FORMAT FILE...",
+    2,
+    std::numeric_limits<std::size_t>::max(),
+    ImportDescription(),
+    {{"out", true, "DIR", "The dataset goes to DIR."},
+     {"robot"},
+     {"robot_format"},
+     {"robot_rotation"},
+     {"robot_columns"},
+     {"robot_inverse"},
+     {"base"},
+     {"tool"},
+     {"base_body"},
+     {"tool_body"},
+     {"measured_inverse"},
+     {"pair"},
+     {"frames"},
+     {"window"},
+     {"time_offset"},
+     {"missing_value"},
+     {"kind"},
+     {"static_tracker"},
+     {"hexapod"},
+     {"name"},
+     {"config"},
+     {"quiet"},
+     {"force"}},
+    &RunImport,
+};
+
 const Command kPredict = {
     "predict",
     "where the machine really is, by a calibrated model",
@@ -160,7 +194,7 @@ const CommandFlag* Command::FindFlag(std::string_view flag) const {
 
 const std::vector<Command>& Commands() {
   static const std::vector<Command> commands = {
-      kCalibrate, kCompare, kDiscover, kPredict, kSimulate};
+      kCalibrate, kCompare, kDiscover, kImport, kPredict, kSimulate};
   return commands;
 }
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "geometry/rotation_order.h"
+
 DEFINE_string(out, "", "Where the results go.");
 DEFINE_string(model, "", "The calibrated machine, as 'hexcal calibrate' writes it.");
 DEFINE_string(config,
@@ -84,6 +86,49 @@ DEFINE_int32(draws,
 DEFINE_int32(starts,
              20,
              "Starts a cell of the maps of where the linearized iterations arrive; 0: no maps.");
+DEFINE_string(robot, "", "What the robot reported.");
+DEFINE_string(robot_format, "", "Its format.");
+DEFINE_string(robot_rotation,
+              "xyz",
+              "What the robot's three angles mean: the factors of the rotation from left to right, "
+              "xyz being Rx Ry Rz, turns about axes that move along, as PI's U V W are.");
+DEFINE_string(robot_columns,
+              "",
+              "The columns of x, y, z and the three angles in the robot's file, by name or number "
+              "from 1, where their names do not tell.");
+DEFINE_bool(robot_inverse, false, "The robot's file states the base seen from the platform.");
+DEFINE_bool(measured_inverse,
+            false,
+            "The tracker's file states the tracker seen from the bodies, not the bodies seen from "
+            "the tracker.");
+DEFINE_string(base,
+              "",
+              "The body on the base: its name, port or serial number in the tracker's file, the "
+              "names of its markers A,B,C, or 'tracker' where none is on the base and the tracker "
+              "stood still.");
+DEFINE_string(tool, "", "The body on the platform: its name, or the names of its markers A,B,C.");
+DEFINE_string(base_body,
+              "",
+              "The places of the base's markers in their body, in the order of the tracker's file: "
+              "a .rig or .rom file.");
+DEFINE_string(tool_body, "", "The same of the tool's markers.");
+DEFINE_string(kind,
+              "any",
+              "What the dataset has: the readings of markers, which tell most, or poses of the "
+              "bodies. any: markers where their places in the bodies are known.");
+DEFINE_string(pair,
+              "",
+              "How the tracker's rows belong to the robot's: row k to row k, all rows of file k to "
+              "row k, to the nearest in time, or to that of the same label.");
+DEFINE_int32(frames, 1, "So many rows of the tracker belong to each row of the robot.");
+DEFINE_double(window, 0.05, "A reading further off in time than this belongs to no pose.");
+DEFINE_double(time_offset, 0.0, "What the tracker's clock is ahead of the robot's.");
+DEFINE_double(missing_value,
+              0.0,
+              "A point all of whose coordinates are this, in the file's unit, was not seen.");
+DEFINE_bool(static_tracker, false, "Tracker and base stood still throughout.");
+DEFINE_string(hexapod, "", "A YAML file with the hexapod's joints, such as another dataset.");
+DEFINE_string(name, "", "The name of the dataset.");
 DEFINE_int32(threads, 0, "Threads to use. The results do not depend on it.");
 DEFINE_bool(json, false, "Print the results as JSON instead, one object a line.");
 DEFINE_bool(quiet, false, "Print no results and no progress; warnings and errors stay.");
@@ -98,6 +143,7 @@ constexpr std::string_view kNoise = "Noise";
 constexpr std::string_view kLinearized = "The linearized solver";
 constexpr std::string_view kComparison = "Comparison";
 constexpr std::string_view kDiscovery = "Discovery";
+constexpr std::string_view kFiles = "What the files do not say";
 constexpr std::string_view kRunning = "Running";
 
 std::vector<FlagSpec> MakeSpecs() {
@@ -141,9 +187,39 @@ std::vector<FlagSpec> MakeSpecs() {
       {"starts", kComparison, "N", "", {}, 0, 10000},
       {"alpha", kDiscovery, "P", "", {}, 1e-4, 0.2},
       {"bootstraps", kDiscovery, "N", "", {}, 99, 100000},
+      {"robot", kFiles, "FILE", ""},
+      {"robot_format", kFiles, "FORMAT", "told by the file's beginning"},
+      {"robot_rotation", kFiles, "", "", {kRotationOrders.begin(), kRotationOrders.end()}},
+      {"robot_columns", kFiles, "A,B,C,D,E,F", "found by their names"},
+      {"robot_inverse", kFiles, "", ""},
+      {"base", kFiles, "NAME", ""},
+      {"tool", kFiles, "NAME", "the only body in the file"},
+      {"base_body", kFiles, "FILE", ""},
+      {"tool_body", kFiles, "FILE", ""},
+      {"measured_inverse", kFiles, "", ""},
+      {"pair", kFiles, "", "", {"rows", "files", "time", "labels"}},
+      {"frames", kFiles, "N", "", {}, 1, 1e6},
+      {"window", kFiles, "S", "", {}, 0.0, 1e6},
+      {"time_offset", kFiles, "S", "", {}, -3e9, 3e9},
+      {"missing_value", kFiles, "X", "", {}, -1e30, 1e30},
+      {"kind", kFiles, "", "", {"any", "markers", "poses"}},
+      {"static_tracker", kFiles, "", ""},
+      {"hexapod", kFiles, "FILE.yaml", ""},
+      {"name", kFiles, "NAME", "that of the folder"},
       {"config", kRunning, "FILE.yaml", ""},
       {"threads", kRunning, "N", "all cores", {}, 1, 1024},
   };
+  const auto only_with = [&specs](
+                             std::string_view name, std::string_view flag, std::string_view value) {
+    for (FlagSpec& spec : specs) {
+      if (spec.name != name) continue;
+      spec.only_with_flag = flag;
+      spec.only_with_value = value;
+    }
+  };
+  only_with("frames", "pair", "rows");
+  only_with("window", "pair", "time");
+  only_with("time_offset", "pair", "time");
   for (FlagSpec& spec : specs) {
     if (spec.group != kLinearized) continue;
     spec.only_with_flag = "solver";

@@ -15,9 +15,14 @@ namespace {
 
 constexpr std::size_t kWidth = 79;
 
-// Text in lines of at most kWidth, each after indent spaces.
+// Text in lines of at most kWidth, each after indent spaces; a line of its own that begins with two
+// blanks (an entry of a list) is indented by them.
 std::string Wrap(std::string_view text, std::size_t indent) {
   std::string lines, line;
+  const std::size_t line_end = text.find('\n');
+  if (line_end != std::string_view::npos)
+    return Wrap(text.substr(0, line_end), indent) + Wrap(text.substr(line_end + 1), indent);
+  if (text.substr(0, 2) == "  ") return Wrap(text.substr(2), indent + 2);
   while (!text.empty()) {
     const std::size_t end = std::min(text.find(' '), text.size());
     const std::string_view word = text.substr(0, end);

@@ -19,6 +19,7 @@ inline constexpr std::string_view kResultMark = R"("format": "hexcal/result/)";
 inline constexpr std::string_view kModelMark = "format: hexcal/model/";
 inline constexpr std::string_view kPredictionMark = "pose,x,y,z,qw,qx,qy,qz\n";
 inline constexpr std::string_view kSimulatedMark = "# Written by hexcal simulate";
+inline constexpr std::string_view kImportedMark = "# Written by hexcal import";
 
 // DIR/<name>/, where one command leaves its results of one dataset.
 class OutputFolder {

@@ -12,6 +12,7 @@
 #include "measurement/labels.h"
 #include "measurement/measurement_reader.h"
 #include "measurement/robot_poses_reader.h"
+#include "measurement/units_reader.h"
 
 namespace hexcal {
 namespace {
@@ -43,18 +44,6 @@ std::string ReadName(const YamlNode& node) {
       node.where,
       fmt::format("the name {}", Quoted(name)),
       "letters, digits, '.', '_' and '-' only (it becomes the name of a folder of results)");
-}
-
-Units ReadUnits(const YamlNode& node) {
-  const MapReader map(node, "units", {"length", "angle"});
-  const auto read = [&](std::string_view key, auto find, const char* expected) {
-    const YamlNode& value = map.Required(key);
-    const std::optional<Unit> unit = find(ReadText(value, expected));
-    if (unit) return unit->factor;
-    throw InputError(
-        value.where, fmt::format("the {} unit {}", key, Quoted(value.scalar)), expected);
-  };
-  return {read("length", FindLengthUnit, "m or mm"), read("angle", FindAngleUnit, "rad or deg")};
 }
 
 Eigen::Vector3d ReadGravity(const YamlNode& node) {

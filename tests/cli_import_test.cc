@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// hexcal import from outside: from other programs' files to a calibration.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "measurement/importers/formats.h"
+#include "model/machine.h"
+#include "testing/matchers.h"
+#include "testing/run_program.h"
+#include "testing/temporary_folder.h"
+
+namespace hexcal {
+namespace {
+
+using ::hexcal::testing::ProgramResult;
+using ::hexcal::testing::RunHexcal;
+using ::hexcal::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+const std::string kExamples = HEXCAL_EXAMPLES;
+const std::string kTracker = kExamples + "/ndi-and-pi/tracker.csv";
+const std::string kRobot = "--robot=" + kExamples + "/ndi-and-pi/hexapod.dat";
+
+class CliImport : public ::testing::Test {
+ protected:
+  ProgramResult Import(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {"import"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunHexcal({arguments, folder.Path("")});
+  }
+  ProgramResult ImportExample(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {
+        "ndi_csv", kTracker, kRobot, "--base=0x0A", "--tool=0x0B", "--out=mine"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Import(arguments);
+  }
+
+  TemporaryFolder folder;
+};
+
+Pose3d PoseOf(const Json& json) {
+  const std::vector<double> t = json["xyz"], q = json["quaternion"];
+  return {{t[0], t[1], t[2]}, Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
+}
+
+TEST_F(CliImport, GoesFromNdiAndPiFilesToACalibration) {
+  const ProgramResult imported = ImportExample({"--pair=rows"});
+  ASSERT_EQ(imported.status, 0) << imported.err;
+  EXPECT_THAT(imported.out, HasSubstr("mine: 60 robot poses, 354 readings of 3 + 3 markers"));
+  EXPECT_THAT(imported.err, HasSubstr("2 tools not used, their state being 'Too Few Markers'"));
+
+  const ProgramResult calibrated =
+      RunHexcal({{"calibrate", "mine/dataset.yaml", "--out=out"}, folder.Path("")});
+  ASSERT_EQ(calibrated.status, 0) << calibrated.err;
+  const Json result = Json::parse(folder.Read("out/mine/result.json"));
+  EXPECT_EQ(result["residual"], "marker");
+  const Machine truth = ReadMachine(kExamples + "/neurobot/truth.yaml");
+  const std::vector<double> sigma = result["standard_deviation"];
+  Vector6d base = Minus(PoseOf(result["world_from_base"]), truth.world_from_base);
+  Vector6d tool = Minus(PoseOf(result["platform_from_tool"]), truth.platform_from_tool);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    EXPECT_LT(std::abs(base[k]), 4 * sigma[i]) << result["parameters"][i];
+    EXPECT_LT(std::abs(tool[k]), 4 * sigma[i + 6]) << result["parameters"][i + 6];
+  }
+}
+
+TEST_F(CliImport, GivesTheSameByPosesWithinTheirNoise) {
+  ASSERT_EQ(ImportExample({"--pair=rows", "--kind=poses"}).status, 0);
+  EXPECT_THAT(folder.Read("mine/dataset.yaml"), HasSubstr("kind: poses"));
+  const ProgramResult calibrated =
+      RunHexcal({{"calibrate", "mine/dataset.yaml", "--out=out"}, folder.Path("")});
+  ASSERT_EQ(calibrated.status, 0) << calibrated.err;
+  const Json result = Json::parse(folder.Read("out/mine/result.json"));
+  const Machine truth = ReadMachine(kExamples + "/neurobot/truth.yaml");
+  EXPECT_TRUE(
+      testing::PoseNear(PoseOf(result["world_from_base"]), truth.world_from_base, 5e-4, 2e-3));
+  EXPECT_EQ(result["poses"].size(), 58u);
+}
+
+TEST_F(CliImport, CommentsTheDatasetThatItWrites) {
+  ASSERT_EQ(ImportExample(
+                {"--pair=rows", "--name=bench-3", "--hexapod=" + kExamples + "/neurobot/plan.yaml"})
+                .status,
+            0);
+  const std::string yaml = folder.Read("mine/dataset.yaml");
+  EXPECT_EQ(yaml.rfind("# Written by hexcal import ndi_csv ", 0), 0u);
+  EXPECT_THAT(yaml, HasSubstr("name: \"bench-3\""));
+  EXPECT_THAT(yaml, HasSubstr("\n# What the robot reported. "));
+  EXPECT_THAT(yaml, HasSubstr("\n# What the tracker saw. "));
+  EXPECT_THAT(yaml, HasSubstr("Platform frame"));
+  EXPECT_THAT(yaml, HasSubstr("hexapod:"));
+  EXPECT_THAT(folder.Read("mine/poses.csv"), HasSubstr(",time\n1,"));
+  // Its own results give way, others do not.
+  EXPECT_EQ(ImportExample({"--pair=rows"}).status, 0);
+  folder.Write("mine/dataset.yaml", "format: hexcal/dataset/1\n");
+  EXPECT_EQ(ImportExample({"--pair=rows"}).status, 5);
+  EXPECT_EQ(ImportExample({"--pair=rows", "--force"}).status, 0);
+}
+
+TEST_F(CliImport, AsksForWhatTheFilesDoNotSay) {
+  const ProgramResult no_robot = Import({"ndi_csv", kTracker, "--out=mine"});
+  EXPECT_EQ(no_robot.status, 2);
+  EXPECT_THAT(no_robot.err, HasSubstr("--robot=FILE is missing"));
+
+  const ProgramResult no_pair = ImportExample({});
+  EXPECT_EQ(no_pair.status, 3);
+  EXPECT_THAT(no_pair.err,
+              HasSubstr("60 rows in one file of the tracker and 60 rows of the robot"));
+  EXPECT_THAT(no_pair.err, HasSubstr("--pair=rows"));
+
+  const ProgramResult no_bodies =
+      Import({"ndi_csv", kTracker, kRobot, "--pair=rows", "--out=mine"});
+  EXPECT_EQ(no_bodies.status, 3);
+  EXPECT_THAT(no_bodies.err, HasSubstr("'Port 0x0A: Base frame  s/n:3E4C8801'"));
+  EXPECT_THAT(no_bodies.err, HasSubstr("--base=NAME"));
+
+  const ProgramResult unlike = ImportExample({"--pair=rows", "--frames=2"});
+  EXPECT_EQ(unlike.status, 3);
+  EXPECT_THAT(unlike.err, HasSubstr("2 of the tracker for each of the robot"));
+
+  const std::string nameless = folder.Write("robot.txt", "1 2 3\n");
+  const ProgramResult unknown = Import({"ndi_csv", kTracker, "--robot=" + nameless, "--out=mine"});
+  EXPECT_EQ(unknown.status, 3);
+  EXPECT_THAT(unknown.err, HasSubstr("--robot_format=FORMAT"));
+  EXPECT_THAT(folder.Names(), ::testing::ElementsAre("robot.txt"));
+}
+
+TEST_F(CliImport, RefusesWrongUsage) {
+  const ProgramResult format = Import({"ndi_cvs", kTracker, "--out=mine"});
+  EXPECT_EQ(format.status, 2);
+  EXPECT_THAT(format.err, HasSubstr("did you mean ndi_csv?"));
+  EXPECT_EQ(Import({"ndi_csv", "--out=mine"}).status, 2);
+  EXPECT_EQ(ImportExample({"--pair=files", "--window=1"}).status, 2);
+  EXPECT_EQ(ImportExample({"--pair=rows", "--robot_columns=1,2,3"}).status, 2);
+  EXPECT_EQ(Import({"ndi_csv", "absent.csv", kRobot, "--out=mine"}).status, 3);
+}
+
+TEST_F(CliImport, MakesAPlanOfARobotsPosesAlone) {
+  const ProgramResult plan =
+      Import({"pi_gcs", kExamples + "/ndi-and-pi/hexapod.dat", "--out=plan"});
+  ASSERT_EQ(plan.status, 0) << plan.err;
+  const ProgramResult predicted = RunHexcal({{"predict",
+                                              "plan/dataset.yaml",
+                                              "--model=" + kExamples + "/neurobot/truth.yaml",
+                                              "--out=where.csv"},
+                                             folder.Path("")});
+  EXPECT_EQ(predicted.status, 0) << predicted.err;
+}
+
+TEST_F(CliImport, HelpNamesEveryFormat) {
+  const std::string help = RunHexcal({{"help", "import"}, folder.Path("")}).out;
+  for (const ImportFormat& format : ImportFormats())
+    EXPECT_THAT(help, HasSubstr(std::string(format.name) + ": "));
+}
+
+// docs/formats.md has a section for each, which begins with what the table says of it.
+TEST_F(CliImport, DocsDescribeEveryFormat) {
+  std::ostringstream text;
+  text << std::ifstream(std::string(HEXCAL_SOURCE) + "/docs/formats.md").rdbuf();
+  std::string docs = text.str();
+  std::replace(docs.begin(), docs.end(), '\n', ' ');
+  for (const ImportFormat& format : ImportFormats())
+    EXPECT_THAT(docs, HasSubstr(fmt::format("### {} {}. ", format.name, format.summary)));
+}
+
+}  // namespace
+}  // namespace hexcal
