@@ -8,6 +8,7 @@
 #include "apps/compare.h"
 #include "apps/discover.h"
 #include "apps/import.h"
+#include "apps/plan.h"
 #include "apps/predict.h"
 #include "apps/simulate.h"
 
@@ -146,6 +147,37 @@ const Command kImport = {
     &RunImport,
 };
 
+const Command kPlan = {
+    "plan",
+    "which poses to measure next, for base and tool or to tell rival effects apart",
+    "DATASET",
+    1,
+    1,
+    "Takes the machine of the model and the poses that the dataset has measured already, and "
+    "chooses further poses (and loads, temperatures and other columns of robot_poses) within "
+    "reach: "
+    "those that determine base and tool best (D-optimality), or that tell the model's effects from "
+    "what they could also be (T-optimality). Says how sure the 12 parameters and how far apart the "
+    "rivals are now and will be then; where no pose can separate two, what experiment would. "
+    "FILE.csv is a table for the robot_poses of a new dataset, in the columns and units of this "
+    "one "
+    "and in the order in which to measure; FILE.json the same with all that is known of it. The "
+    "dataset may have no measured poses yet if it states its noise.",
+    {{"model", true},
+     {"out", true, "FILE", "The plan to write, .csv or .json."},
+     {"for"},
+     {"poses"},
+     {"pool"},
+     {"noise_position"},
+     {"noise_orientation"},
+     {"seed", false, {}, "The same seed draws the same pool and the same order."},
+     {"config"},
+     {"json"},
+     {"quiet"},
+     {"force"}},
+    &RunPlan,
+};
+
 const Command kPredict = {
     "predict",
     "where the machine really is, by a calibrated model",
@@ -194,7 +226,7 @@ const CommandFlag* Command::FindFlag(std::string_view flag) const {
 
 const std::vector<Command>& Commands() {
   static const std::vector<Command> commands = {
-      kCalibrate, kCompare, kDiscover, kImport, kPredict, kSimulate};
+      kCalibrate, kCompare, kDiscover, kImport, kPlan, kPredict, kSimulate};
   return commands;
 }
 

@@ -129,6 +129,15 @@ DEFINE_double(missing_value,
 DEFINE_bool(static_tracker, false, "Tracker and base stood still throughout.");
 DEFINE_string(hexapod, "", "A YAML file with the hexapod's joints, such as another dataset.");
 DEFINE_string(name, "", "The name of the dataset.");
+DEFINE_string(for,
+              "",
+              "What the next poses are for: the 12 parameters of base and tool, or telling the "
+              "model's effects from what they could also be.");
+DEFINE_int32(poses, 12, "How many poses to plan.");
+DEFINE_int32(pool,
+             300,
+             "From so many poses within reach they are chosen; for rivals each comes with up to "
+             "three settings of the covariates.");
 DEFINE_int32(threads, 0, "Threads to use. The results do not depend on it.");
 DEFINE_bool(json, false, "Print the results as JSON instead, one object a line.");
 DEFINE_bool(quiet, false, "Print no results and no progress; warnings and errors stay.");
@@ -144,6 +153,7 @@ constexpr std::string_view kLinearized = "The linearized solver";
 constexpr std::string_view kComparison = "Comparison";
 constexpr std::string_view kDiscovery = "Discovery";
 constexpr std::string_view kFiles = "What the files do not say";
+constexpr std::string_view kPlanning = "Planning";
 constexpr std::string_view kRunning = "Running";
 
 std::vector<FlagSpec> MakeSpecs() {
@@ -206,6 +216,13 @@ std::vector<FlagSpec> MakeSpecs() {
       {"static_tracker", kFiles, "", ""},
       {"hexapod", kFiles, "FILE.yaml", ""},
       {"name", kFiles, "NAME", "that of the folder"},
+      {"for",
+       kPlanning,
+       "",
+       "rivals where the model's effects have any, else parameters",
+       {"parameters", "rivals"}},
+      {"poses", kPlanning, "N", "", {}, 1, 1000},
+      {"pool", kPlanning, "N", "", {}, 50, 20000},
       {"config", kRunning, "FILE.yaml", ""},
       {"threads", kRunning, "N", "all cores", {}, 1, 1024},
   };

@@ -124,7 +124,7 @@ TEST(Cli, AnUnknownFlagGetsTheNearestOne) {
 
 TEST(Cli, AFlagOfAnotherCommandSaysWhose) {
   ExpectWrongUsage({"predict", "d.yaml", "--seed=3"},
-                   "predict: takes no --seed (that is for compare, discover, simulate)");
+                   "predict: takes no --seed (that is for compare, discover, plan, simulate)");
 }
 
 TEST(Cli, GflagsOwnFlagsAreUnknown) {

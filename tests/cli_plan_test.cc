@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// hexcal plan from outside. What it chooses is tested with plan.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "testing/run_program.h"
+#include "testing/temporary_folder.h"
+
+namespace hexcal {
+namespace {
+
+using ::hexcal::testing::ProgramResult;
+using ::hexcal::testing::RunHexcal;
+using ::hexcal::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using Json = nlohmann::json;
+
+const std::string kNeurobot = std::string(HEXCAL_EXAMPLES) + "/neurobot/dataset.yaml";
+
+class CliPlan : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const ProgramResult result =
+        RunHexcal({{"calibrate", kNeurobot, "--out=out", "--quiet"}, folder.Path("")});
+    ASSERT_EQ(result.status, 0) << result.err;
+  }
+
+  ProgramResult Plan(const std::string& dataset, const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {
+        "plan", dataset, "--model=out/neurobot/model.yaml", "--pool=60", "--poses=5"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunHexcal({arguments, folder.Path("")});
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(CliPlan, WritesATableThatIsRobotPosesOfANewDataset) {
+  const ProgramResult result = Plan(kNeurobot, {"--out=next.csv"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("5 poses to measure next, for base and tool; 60 measured"));
+  EXPECT_THAT(result.out, HasSubstr("written to     next.csv"));
+  const std::string table = folder.Read("next.csv");
+  EXPECT_THAT(table, StartsWith("# Written by hexcal plan for neurobot"));
+  EXPECT_THAT(table, HasSubstr("\n# plan-1: determines "));
+  EXPECT_THAT(table, HasSubstr("\nplan-5,"));
+  // The dataset's own description, with the new table in the place of the old one.
+  std::ifstream file(kNeurobot);
+  std::string yaml((std::istreambuf_iterator<char>(file)), {});
+  const auto replace = [&yaml](const std::string& old, const std::string& by) {
+    ASSERT_NE(yaml.find(old), std::string::npos) << old;
+    yaml.replace(yaml.find(old), old.size(), by);
+  };
+  replace("poses.csv", "next.csv");
+  replace("  file: markers.csv\n", "");
+  folder.Write("next.yaml", yaml);
+  const ProgramResult again =
+      RunHexcal({{"predict", "next.yaml", "--model=out/neurobot/model.yaml", "--out=where.csv"},
+                 folder.Path("")});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_THAT(folder.Read("where.csv"), HasSubstr("\nplan-5,"));
+}
+
+TEST_F(CliPlan, WritesJsonTheSameBytesTwice) {
+  ASSERT_EQ(Plan(kNeurobot, {"--out=a.json", "--quiet"}).status, 0);
+  const ProgramResult again = Plan(kNeurobot, {"--out=b.json", "--json"});
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(folder.Read("a.json"), folder.Read("b.json"));
+  const Json plan = Json::parse(folder.Read("a.json"));
+  EXPECT_EQ(Json::parse(again.out), plan);
+  EXPECT_EQ(plan["format"], "hexcal/plan/1");
+  EXPECT_EQ(plan["for"], "parameters");
+  EXPECT_EQ(plan["measured"], 60);
+  ASSERT_EQ(plan["poses"].size(), 5u);
+  EXPECT_EQ(plan["parameters"].size(), 12u);
+  for (int k = 0; k < 12; ++k)
+    EXPECT_LT(plan["standard_deviation"]["after"][k].get<double>(),
+              plan["standard_deviation"]["before"][k].get<double>());
+  // Its own earlier results are replaced, other files are not.
+  EXPECT_EQ(Plan(kNeurobot, {"--out=a.json", "--quiet"}).status, 0);
+  folder.Write("mine.csv", "pose,x\n");
+  EXPECT_EQ(Plan(kNeurobot, {"--out=mine.csv"}).status, 5);
+  EXPECT_EQ(Plan(kNeurobot, {"--out=mine.csv", "--force"}).status, 0);
+}
+
+TEST_F(CliPlan, RefusesWhatItCannotUse) {
+  const ProgramResult other = Plan(kNeurobot, {"--out=plan.txt"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("found 'plan.txt', expected a file that ends in .csv or .json"));
+  EXPECT_EQ(Plan(kNeurobot, {"--out=a.csv", "--for=fun"}).status, 2);
+  EXPECT_EQ(RunHexcal({{"plan", kNeurobot, "--out=a.csv"}, folder.Path("")}).status, 2);
+  const ProgramResult many = RunHexcal({{"plan",
+                                         kNeurobot,
+                                         "--model=out/neurobot/model.yaml",
+                                         "--out=a.csv",
+                                         "--poses=80",
+                                         "--pool=60"},
+                                        folder.Path("")});
+  EXPECT_EQ(many.status, 2);
+  EXPECT_THAT(many.err, HasSubstr("expected at most --pool, 60"));
+  const ProgramResult missing = Plan("nowhere.yaml", {"--out=a.csv"});
+  EXPECT_EQ(missing.status, 3);
+  const ProgramResult alone = Plan(kNeurobot, {"--out=a.csv", "--for=rivals"});
+  EXPECT_EQ(alone.status, 3);
+  EXPECT_THAT(alone.err, HasSubstr("model.yaml"));
+  EXPECT_THAT(alone.err, HasSubstr("a model without effects"));
+}
+
+}  // namespace
+}  // namespace hexcal

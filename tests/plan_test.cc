@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Planned poses against simulated measurements of them.
+#include "discovery/plan.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+#include <tuple>
+
+#include "config/input_error.h"
+#include "discovery/gap_model.h"
+#include "discovery/pose_pool.h"
+#include "discovery/score.h"
+#include "estimator/calibrate.h"
+#include "model/simulate.h"
+#include "testing/grown_scene.h"
+#include "testing/input_error_text.h"
+
+namespace hexcal {
+namespace {
+
+using ::hexcal::testing::SeededByTest;
+using ::hexcal::testing::SmallPose;
+using ::hexcal::testing::TrueMachine;
+using ::hexcal::testing::Uniform;
+
+// Measured poses of kind poses, 20 um and 0.1 mrad, from a tracker that gives no single markers.
+template <typename Rng>
+Dataset PoseDataset(Rng& rng, int poses, bool has_hexapod) {
+  Dataset dataset;
+  dataset.path = "dataset.yaml";
+  dataset.name = "planned";
+  if (has_hexapod) {
+    dataset.hexapod = testing::LargeHexapod();
+    dataset.hexapod->leg_limits = Eigen::Vector2d(0.4, 0.75);
+  }
+  for (int i = 0; i < poses; ++i) {
+    Pose3d pose = SmallPose(rng, 0.04, 0.15);
+    pose.translation.z() += testing::kLargeHeight;
+    dataset.robot_poses.rows.push_back({std::to_string(i + 1), pose, {}, i + 2});
+  }
+  Measurement& measurement = dataset.measurement.emplace();
+  measurement.kind = Measurement::Kind::kPoses;
+  measurement.pose_noise =
+      PoseNoise{Eigen::Vector3d::Constant(2e-5), Eigen::Vector3d::Constant(1e-4)};
+  return dataset;
+}
+
+void AddColumn(const std::string& name, const std::vector<double>& values, Dataset* dataset) {
+  dataset->robot_poses.covariates.push_back({name, {}, {}});
+  for (std::size_t i = 0; i < dataset->robot_poses.rows.size(); ++i)
+    dataset->robot_poses.covariates.back().values.push_back(values[i % values.size()]);
+}
+
+Dataset Measured(const Dataset& dataset, const Machine& machine, std::uint64_t seed) {
+  SimulateOptions options;
+  options.seed = seed;
+  return Simulate(dataset, machine, options);
+}
+
+// The dataset with further robot poses; its measurement is to be simulated again.
+Dataset Extended(Dataset dataset, const RobotPoses& planned) {
+  RobotPoses& poses = dataset.robot_poses;
+  poses.rows.insert(poses.rows.end(), planned.rows.begin(), planned.rows.end());
+  for (std::size_t c = 0; c < poses.covariates.size(); ++c)
+    poses.covariates[c].values.insert(poses.covariates[c].values.end(),
+                                      planned.covariates[c].values.begin(),
+                                      planned.covariates[c].values.end());
+  return dataset;
+}
+
+Machine Calibrated(const Dataset& dataset) {
+  const Estimate estimate = Calibrate(MakeObservations(dataset), std::nullopt, {});
+  Machine machine;
+  machine.world_from_base = estimate.mounts.world_from_base;
+  machine.platform_from_tool = estimate.mounts.platform_from_tool;
+  return machine;
+}
+
+double LogDeterminantOfCalibration(const Dataset& dataset) {
+  const Estimate estimate = Calibrate(MakeObservations(dataset), std::nullopt, {});
+  // In mm and mrad.
+  return std::log((1e6 * estimate.covariance).determinant());
+}
+
+TEST(Plan, DeviationsForetoldAreThoseOfACalibration) {
+  auto rng = SeededByTest();
+  const Machine truth = TrueMachine(rng);
+  const Dataset before = Measured(PoseDataset(rng, 15, true), truth, 1);
+  const Plan plan = MakePlan(before, Calibrated(before), {});
+  ASSERT_EQ(plan.poses.rows.size(), 12u);
+  EXPECT_EQ(plan.goal, PlanGoal::kParameters);
+  EXPECT_EQ(plan.measured, 15);
+  const Dataset after = Measured(Extended(before, plan.poses), truth, 2);
+  const Estimate now = Calibrate(MakeObservations(before), std::nullopt, {});
+  const Estimate then = Calibrate(MakeObservations(after), std::nullopt, {});
+  for (int k = 0; k < 12; ++k) {
+    EXPECT_NEAR(plan.deviation_before[k] / std::sqrt(now.covariance(k, k)), 1.0, 1e-3) << k;
+    EXPECT_NEAR(plan.deviation_after[k] / std::sqrt(then.covariance(k, k)), 1.0, 1e-3) << k;
+    EXPECT_LT(plan.deviation_after[k], plan.deviation_before[k]) << k;
+  }
+}
+
+TEST(Plan, DeviationsForetoldOfMarkersAreThoseOfACalibrationByPoses) {
+  for (const bool is_static : {false, true}) {
+    auto rng = SeededByTest();
+    const Machine truth = TrueMachine(rng);
+    Dataset before = testing::Plan(rng, is_static);
+    before.robot_poses.covariates.clear();
+    before.robot_poses.rows.resize(20);
+    before = Measured(before, truth, 1);
+    PlanOptions options;
+    options.poses = 8;
+    options.pool = 100;
+    const Plan plan = MakePlan(before, Calibrated(before), options);
+    const Dataset after = Measured(Extended(before, plan.poses), truth, 2);
+    const Estimate then = Calibrate(MakeObservations(after), std::nullopt, {});
+    // A static tracker's own error moves the base and is not a pose's.
+    const int first = is_static ? 6 : 0;
+    for (int k = first; k < 12; ++k)
+      EXPECT_NEAR(plan.deviation_after[k] / std::sqrt(then.covariance(k, k)), 1.0, 0.02) << k;
+  }
+}
+
+TEST(Plan, BeatsRandomPosesFromTheSamePoolOnSeveralMachines) {
+  auto rng = SeededByTest();
+  for (int machine = 0; machine < 3; ++machine) {
+    const Machine truth = TrueMachine(rng);
+    Dataset dataset = PoseDataset(rng, 10, machine > 0);
+    if (machine == 2) dataset.hexapod->leg_limits.reset();
+    const Dataset before = Measured(dataset, truth, 1);
+    PlanOptions options;
+    options.poses = 6;
+    const Plan plan = MakePlan(before, Calibrated(before), options);
+    const double planned =
+        LogDeterminantOfCalibration(Measured(Extended(before, plan.poses), truth, 2));
+    std::vector<Pose3d> reported;
+    for (const RobotPose& row : before.robot_poses.rows) reported.push_back(row.base_from_platform);
+    const Reach reach = ReachOf(before.hexapod ? &*before.hexapod : nullptr, reported);
+    const std::vector<Pose3d> pool = MakePosePool(reach, 300, 1);
+    double least = 1e300;
+    for (int draw = 0; draw < 20; ++draw) {
+      RobotPoses random = plan.poses;
+      for (RobotPose& row : random.rows) row.base_from_platform = pool[rng() % pool.size()];
+      least = std::min(least,
+                       LogDeterminantOfCalibration(Measured(Extended(before, random), truth, 2)));
+    }
+    EXPECT_LT(planned, least - 0.5) << machine;
+  }
+}
+
+TEST(Plan, AFirstPlanNeedsNoMeasuredPosesButANoise) {
+  auto rng = SeededByTest();
+  const Machine machine = TrueMachine(rng);
+  Dataset dataset = PoseDataset(rng, 1, true);
+  const Plan plan = MakePlan(dataset, machine, {});
+  EXPECT_EQ(plan.measured, 0);
+  const Dataset after = Measured(Extended(PoseDataset(rng, 0, true), plan.poses), machine, 2);
+  const Estimate then = Calibrate(MakeObservations(after), std::nullopt, {});
+  for (int k = 0; k < 12; ++k) {
+    EXPECT_TRUE(std::isnan(plan.deviation_before[k])) << k;
+    EXPECT_NEAR(plan.deviation_after[k] / std::sqrt(then.covariance(k, k)), 1.0, 1e-3) << k;
+  }
+  dataset.measurement->pose_noise.reset();
+  EXPECT_THROW(MakePlan(dataset, machine, {}), InputError);
+  PlanOptions options;
+  options.noise = NoiseLevels{2e-5, 1e-4};
+  const Plan same = MakePlan(dataset, machine, options);
+  EXPECT_NEAR(same.deviation_after[0], plan.deviation_after[0], 1e-6 * plan.deviation_after[0]);
+}
+
+TEST(Plan, RefusesPosesThatSpanNothing) {
+  auto rng = SeededByTest();
+  const Machine machine = TrueMachine(rng);
+  const Dataset dataset = PoseDataset(rng, 1, false);
+  EXPECT_THROW(MakePlan(dataset, machine, {}), InputError);
+}
+
+TEST(Plan, EqualSeedsGiveEqualPlansInAnotherOrderThanThePool) {
+  auto rng = SeededByTest();
+  const Machine truth = TrueMachine(rng);
+  const Dataset dataset = Measured(PoseDataset(rng, 12, true), truth, 1);
+  PlanOptions options;
+  options.poses = 5;
+  options.pool = 100;
+  const Plan once = MakePlan(dataset, truth, options), again = MakePlan(dataset, truth, options);
+  options.seed = 2;
+  const Plan other = MakePlan(dataset, truth, options);
+  int different = 0;
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_EQ(once.base_from_platform[k].translation, again.base_from_platform[k].translation);
+    if (once.base_from_platform[k].translation != other.base_from_platform[k].translation)
+      ++different;
+  }
+  EXPECT_GT(different, 0);
+}
+
+TEST(Plan, LabelsAreNewAndCovariatesAreOnesThatWereSet) {
+  auto rng = SeededByTest();
+  const Machine truth = TrueMachine(rng);
+  Dataset dataset = PoseDataset(rng, 12, true);
+  dataset.robot_poses.rows[3].label = "plan-1";
+  AddColumn("payload", {0.0, 5.0}, &dataset);
+  std::vector<double> times;
+  for (int i = 0; i < 12; ++i) times.push_back(100.0 + 30.0 * i);
+  AddColumn("time", times, &dataset);
+  const Plan plan = MakePlan(Measured(dataset, truth, 1), truth, {});
+  std::set<std::string> labels;
+  std::set<double> loads;
+  for (std::size_t k = 0; k < plan.poses.rows.size(); ++k) {
+    labels.insert(plan.poses.rows[k].label);
+    loads.insert(plan.poses.covariates[0].values[k]);
+    EXPECT_DOUBLE_EQ(plan.poses.covariates[1].values[k], 430.0 + 30.0 * static_cast<double>(k + 1));
+  }
+  EXPECT_EQ(labels.size(), 12u);
+  EXPECT_EQ(labels.count("plan-1"), 0u);
+  EXPECT_EQ(loads, (std::set<double>{0.0, 5.0}));
+}
+
+// An effect of all legs or of none, of a size of the table's plausible one.
+Machine WithEffect(Machine machine, const std::string& name, double sizes, const Dataset& dataset) {
+  const EffectKind& kind = *FindEffectKind(name);
+  std::vector<Pose3d> reported;
+  for (const RobotPose& row : dataset.robot_poses.rows) reported.push_back(row.base_from_platform);
+  Effect effect;
+  effect.name = name;
+  effect.parameters.setZero(kind.SizeFor({}));
+  for (int k = 0; k < effect.parameters.size(); ++k)
+    if (!kind.ParameterOf(k).is_search) effect.parameters[k] = sizes * kind.ScaleOf(k);
+  effect.reference = ReferenceFor(
+      kind, MakeVisits(dataset, dataset.hexapod ? &*dataset.hexapod : nullptr, reported), dataset);
+  machine.effects = {effect};
+  return machine;
+}
+
+const RivalPair* PairOf(const Plan& plan, const std::string& rival) {
+  for (const RivalPair& pair : plan.pairs)
+    if (pair.rival == rival) return &pair;
+  return nullptr;
+}
+
+// How often, in repeated measurements, the rival explains more than the effect that is there; both
+// of one number.
+double Mistaken(const Dataset& dataset,
+                const Machine& truth,
+                const std::string& effect,
+                const std::string& rival) {
+  constexpr int kDraws = 120;
+  std::vector<Pose3d> reported;
+  for (const RobotPose& row : dataset.robot_poses.rows) reported.push_back(row.base_from_platform);
+  int mistaken = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const Dataset measured = Measured(dataset, truth, 100 + draw);
+    const GapData data = MakeGapData(measured, reported);
+    FormLibrary two;
+    two.families = {{effect}, {rival}};
+    for (int family = 0; family < 2; ++family) {
+      FormDefinition form;
+      form.family = family;
+      form.effect = WithEffect(truth, two.families[family].name, 0.0, measured).effects[0];
+      form.directions = Eigen::MatrixXd::Ones(form.effect.parameters.size(), 1);
+      form.scale = Eigen::VectorXd::Ones(1);
+      two.forms.push_back(form);
+    }
+    const GapProblem problem =
+        MakeGapProblem(data, {truth.world_from_base, truth.platform_from_tool}, {}, two);
+    GapNoise stated;
+    stated.factor = {1.0, 0.0, 0.0};
+    stated.weight = Eigen::VectorXd::Ones(problem.linear.poses);
+    stated.shape_weight = stated.weight;
+    const Scorer scorer(problem.linear, stated);
+    if (scorer.scores()[1].gain > scorer.scores()[0].gain) ++mistaken;
+  }
+  return static_cast<double>(mistaken) / kDraws;
+}
+
+double ChanceOfMistake(double distance) { return 0.5 * std::erfc(0.5 * distance / std::sqrt(2.0)); }
+
+TEST(Plan, RivalsAreMistakenAsOftenAsForetoldAndLessThanWithRandomPoses) {
+  auto rng = SeededByTest();
+  Dataset dataset = PoseDataset(rng, 40, true);
+  for (RobotPose& row : dataset.robot_poses.rows)
+    row.base_from_platform.translation.z() =
+        testing::kLargeHeight +
+        0.5 * (row.base_from_platform.translation.z() - testing::kLargeHeight);
+  const Machine truth = WithEffect(TrueMachine(rng), "leg_offset", 0.5, dataset);
+  const Dataset before = Measured(dataset, truth, 1);
+  PlanOptions options;
+  options.goal = PlanGoal::kRivals;
+  options.poses = 6;
+  const Plan plan = MakePlan(before, truth, options);
+  const RivalPair* pair = PairOf(plan, "base_radius");
+  ASSERT_NE(pair, nullptr);
+  EXPECT_GT(pair->after, pair->before + 1.0);
+
+  const double now = Mistaken(before, truth, "leg_offset", "base_radius");
+  const double then = Mistaken(Extended(before, plan.poses), truth, "leg_offset", "base_radius");
+  const auto band = [](double p) { return 4.0 * std::sqrt(std::max(p, 0.01) * (1.0 - p) / 120.0); };
+  EXPECT_NEAR(now, ChanceOfMistake(pair->before), band(ChanceOfMistake(pair->before)));
+  EXPECT_NEAR(then, ChanceOfMistake(pair->after), band(ChanceOfMistake(pair->after)));
+
+  std::vector<Pose3d> reported;
+  for (const RobotPose& row : before.robot_poses.rows) reported.push_back(row.base_from_platform);
+  const std::vector<Pose3d> pool = MakePosePool(ReachOf(&*before.hexapod, reported), 300, 1);
+  RobotPoses random = plan.poses;
+  for (RobotPose& row : random.rows) row.base_from_platform = pool[rng() % pool.size()];
+  EXPECT_GT(Mistaken(Extended(before, random), truth, "leg_offset", "base_radius"), then + 0.05);
+}
+
+TEST(Plan, ATemperatureThatWentUpWithTimeIsPlannedUpAndDown) {
+  auto rng = SeededByTest();
+  Dataset dataset = PoseDataset(rng, 40, true);
+  std::vector<double> times, temperatures;
+  for (int i = 0; i < 40; ++i) {
+    times.push_back(60.0 * i);
+    temperatures.push_back(20.0 + 0.1 * i + Uniform(rng, -0.2, 0.2));
+  }
+  AddColumn("time", times, &dataset);
+  AddColumn("temperature", temperatures, &dataset);
+  const Machine truth = WithEffect(TrueMachine(rng), "leg_thermal", 2.0, dataset);
+  const Dataset before = Measured(dataset, truth, 1);
+  const Plan plan = MakePlan(before, truth, {});
+  EXPECT_EQ(plan.goal, PlanGoal::kRivals);
+  const RivalPair* pair = PairOf(plan, "base_drift");
+  ASSERT_NE(pair, nullptr);
+  EXPECT_LT(pair->before * pair->before, 10.8);
+  EXPECT_GT(pair->after * pair->after, 10.8);
+  EXPECT_EQ(pair->separation, Separation::kByPlan);
+  // Not in the order of time.
+  const std::vector<double>& planned = plan.poses.covariates[1].values;
+  EXPECT_FALSE(std::is_sorted(planned.begin(), planned.end()));
+  EXPECT_FALSE(std::is_sorted(planned.rbegin(), planned.rend()));
+  EXPECT_LT(*std::min_element(planned.begin(), planned.end()), 21.0);
+  EXPECT_GT(*std::max_element(planned.begin(), planned.end()), 23.0);
+}
+
+// Flat plates, for which the gauge is exact.
+Dataset FlatDataset(std::mt19937_64& rng) {
+  Dataset dataset = PoseDataset(rng, 30, false);
+  dataset.hexapod = testing::SmallHexapod();
+  for (RobotPose& row : dataset.robot_poses.rows)
+    row.base_from_platform.translation.z() += testing::kSmallHeight - testing::kLargeHeight;
+  return dataset;
+}
+
+TEST(Plan, ExactGaugesAreNamedWithTheExperimentThatWouldTell) {
+  auto rng = SeededByTest();
+  const Machine machine = TrueMachine(rng);
+  const Dataset dataset = FlatDataset(rng);
+  for (const auto& [effect, rival, experiment] :
+       {std::tuple("tracker_scale",
+                   "base_radius with platform_radius and leg_gain",
+                   "certified length bar"),
+        std::tuple("base_drift", "a tracker that moves", "markers on the base in every pose")}) {
+    const Machine truth = WithEffect(machine, effect, 4.0, dataset);
+    const Plan plan = MakePlan(Measured(dataset, truth, 1), truth, {});
+    const RivalPair* pair = PairOf(plan, rival);
+    ASSERT_NE(pair, nullptr) << effect;
+    EXPECT_EQ(pair->separation, Separation::kNotByPoses) << effect;
+    EXPECT_TRUE(pair->is_exact) << effect;
+    EXPECT_FALSE(pair->is_absorbed) << effect;
+    EXPECT_EQ(pair->poses_needed, 0) << effect;
+    EXPECT_NE(pair->experiment.find(experiment), std::string::npos) << pair->experiment;
+    EXPECT_GT(pair->size_before, 5.0) << effect;
+    EXPECT_LT(pair->whole_pool, 0.1) << effect;
+  }
+}
+
+TEST(Plan, MarkersOnTheBaseTellADriftFromAMovingTracker) {
+  auto rng = SeededByTest();
+  for (const bool is_static : {false, true}) {
+    const Dataset dataset = testing::Plan(rng, is_static);
+    const Machine truth = WithEffect(TrueMachine(rng), "base_drift", 4.0, dataset);
+    PlanOptions options;
+    options.pool = 60;
+    options.poses = 4;
+    options.goal = PlanGoal::kRivals;
+    const Plan plan = MakePlan(Measured(dataset, truth, 1), truth, options);
+    EXPECT_EQ(PairOf(plan, "a tracker that moves") != nullptr, is_static);
+  }
+}
+
+TEST(Plan, RefusesADatasetThatLacksWhatAnEffectNeeds) {
+  auto rng = SeededByTest();
+  Dataset dataset = PoseDataset(rng, 12, true);
+  AddColumn("temperature", {20.0, 22.0, 25.0}, &dataset);
+  const Machine truth = WithEffect(TrueMachine(rng), "leg_thermal", 2.0, dataset);
+  const Dataset measured = Measured(dataset, truth, 1);
+  dataset = measured;
+  dataset.robot_poses.covariates.clear();
+  EXPECT_THAT(testing::InputErrorText([&] { MakePlan(dataset, truth, {}); }),
+              ::testing::HasSubstr("what the model's effect 'leg_thermal' needs"));
+  dataset = measured;
+  dataset.measurement.reset();
+  EXPECT_THROW(MakePlan(dataset, truth, {}), InputError);
+}
+
+}  // namespace
+}  // namespace hexcal
