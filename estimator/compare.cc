@@ -34,6 +34,7 @@ class Comparing {
     monte_carlo.draws = options_.draws;
     monte_carlo.seed = options_.seed;
     monte_carlo.threads = options_.threads;
+    monte_carlo.keep_draws = options_.keep_draws;
     monte_carlo.progress = ProgressOf("repeating the measurement");
     comparison_.propagation =
         CheckPropagation(observations_, levels_, comparison_.reference, monte_carlo);

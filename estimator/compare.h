@@ -21,6 +21,7 @@ struct CompareOptions {
   MarkersOf markers;           // for the solution by marker; may be empty
   int folds = 5;               // of the cross-validation
   int draws = 10000;           // of the Monte Carlo check
+  bool keep_draws = false;     // in its result
   int starts = 20;             // of each cell of the convergence maps; 0: none
   std::uint64_t seed = 1;
   int threads = 1;  // the result does not depend on it

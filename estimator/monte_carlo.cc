@@ -202,6 +202,15 @@ void Append(const Repeater& repeater,
   }
 }
 
+void Keep(const std::vector<Block>& blocks, PropagationCheck* check) {
+  check->estimates.resize(12, check->draws);
+  Eigen::Index next = 0;
+  for (const Block& block : blocks) {
+    check->estimates.middleCols(next, block.estimator.cols()) = block.estimator;
+    next += block.estimator.cols();
+  }
+}
+
 }  // namespace
 
 double NumericalTolerance(double sigma, int digits) {
@@ -245,6 +254,7 @@ PropagationCheck CheckPropagation(const Observations& observations,
     check.draws += static_cast<int>(block.linear.cols());
     check.not_converged += block.not_converged;
   }
+  if (options.keep_draws) Keep(blocks, &check);
   return check;
 }
 

@@ -16,6 +16,7 @@ struct MonteCarloOptions {
   std::uint64_t seed = 1;
   int threads = 1;                           // the result does not depend on it
   std::function<void(long, long)> progress;  // done, of; from the calling thread
+  bool keep_draws = false;
 };
 
 // The 95 % interval of one parameter by the covariance against that by repetition, about the
@@ -40,6 +41,8 @@ struct PropagationCheck {
   std::array<IntervalCheck, 12> intervals;
   bool stable = false;     // every accuracy within a fifth of its tolerance (8.2)
   bool validated = false;  // every interval agrees
+  // Where they were to be kept: what each repetition estimated, minus the estimate. 12 x draws.
+  Eigen::Matrix<double, 12, Eigen::Dynamic> estimates;
 };
 
 // The limits are those of the draws, less what the linear estimator, whose limits are known, makes

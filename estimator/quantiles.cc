@@ -3,6 +3,7 @@
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
@@ -40,6 +41,14 @@ double ChiSquareQuantile(double probability, double degrees_of_freedom) {
 
 double ChiSquareTail(double x, double degrees_of_freedom) {
   return Tail(ChiSquare(degrees_of_freedom), x);
+}
+
+double ChiSquareNoncentrality(double alpha, double power, double degrees_of_freedom) {
+  using Noncentral = boost::math::non_central_chi_squared_distribution<double, Policy>;
+  return Noncentral::find_non_centrality(boost::math::complement(
+      degrees_of_freedom,
+      boost::math::quantile(boost::math::complement(ChiSquare(degrees_of_freedom), alpha)),
+      power));
 }
 
 double FisherFQuantile(double probability, double numerator_dof, double denominator_dof) {

@@ -11,6 +11,9 @@ double StudentTTail(double x, double degrees_of_freedom);
 
 double ChiSquareQuantile(double probability, double degrees_of_freedom);
 double ChiSquareTail(double x, double degrees_of_freedom);  // x from 0
+// The noncentrality with which chi-square exceeds the limit that it else exceeds with probability
+// alpha, with this power; above alpha, below 1.
+double ChiSquareNoncentrality(double alpha, double power, double degrees_of_freedom);
 
 double FisherFQuantile(double probability, double numerator_dof, double denominator_dof);
 double FisherFTail(double x, double numerator_dof, double denominator_dof);  // x from 0

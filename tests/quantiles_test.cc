@@ -46,6 +46,22 @@ TEST(Quantiles, AndTailsUndoEachOther) {
   }
 }
 
+// One degree of freedom: (4.1308)^2 for 0.1 % and a power of 80 % (Baarda's factor); else by
+// repeats.
+TEST(Quantiles, NoncentralityIsBaardasAndThatOfRepeats) {
+  EXPECT_NEAR(std::sqrt(ChiSquareNoncentrality(0.001, 0.8, 1.0)), 4.132, 1e-3);
+  const double shift = std::sqrt(ChiSquareNoncentrality(0.01, 0.8, 6.0));
+  auto rng = testing::SeededByTest();
+  constexpr int kDraws = 100000;
+  int seen = 0;
+  for (int i = 0; i < kDraws; ++i) {
+    Eigen::VectorXd z = testing::Normal(rng, 6);
+    z[2] += shift;
+    seen += z.squaredNorm() > ChiSquareQuantile(0.99, 6.0);
+  }
+  EXPECT_NEAR(static_cast<double>(seen) / kDraws, 0.8, 0.006);
+}
+
 TEST(Quantiles, DensityIsTheSlopeOfTheTail) {
   constexpr double kStep = 1e-5;
   for (const double x : {0.2, 1.0, 4.0}) {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "estimator/observations.h"
+
+namespace hexcal {
+
+// What the other poses say of one, and how large an error of it they would see.
+struct PoseCheck {
+  std::string label;
+  Vector6d held_out = Vector6d::Zero();  // measured minus predicted by the others, [m, rad]
+  double squared = 0.0;                  // the same in squared sigmas: chi-square of 6
+  double expected_position = 0.0;        // RMS length of held_out that noise explains, m
+  double expected_orientation = 0.0;     // rad
+  // The smallest error, along the worst direction, that the search for outliers would find, m and
+  // rad.
+  double smallest_position = 0.0;
+  double smallest_orientation = 0.0;
+  double redundancy = 0.0;  // the part of an error that shows in the residual, mean of the six
+};
+
+// For every pose that the others check, by its deletion error (estimator/deletion.h). Smallest
+// errors: the test of FindOutliers at alpha for all poses together finds them with that power.
+// levels: where the dataset states no noise. Reference: W. Baarda, A Testing Procedure for Use in
+// Geodetic Networks (1968), for six dimensions at a time.
+std::vector<PoseCheck> CheckPoses(const Observations& observations,
+                                  const BaseAndTool& mounts,
+                                  const NoiseLevels& levels,
+                                  double alpha,
+                                  double power);
+
+}  // namespace hexcal

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/target_check.h"
+
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace hexcal {
+namespace {
+
+constexpr int kDigits = 2;
+
+// One draw of a source's six numbers.
+Vector6d Draw(const ErrorSource& source, std::mt19937_64* rng) {
+  std::normal_distribution<double> normal;
+  // of variance one
+  std::uniform_real_distribution<double> uniform(-std::sqrt(3.0), std::sqrt(3.0));
+  Vector6d step;
+  for (int i = 0; i < 6; ++i)
+    step[i] = (i < 3 ? source.position : source.orientation) *
+              (source.spread == Spread1d::kNormal ? normal(*rng) : uniform(*rng));
+  return step;
+}
+
+// Where the point is, had these small motions been.
+struct Motion {
+  Vector6d platform = Vector6d::Zero(), tool = Vector6d::Zero(), world = Vector6d::Zero();
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+
+  void Add(SourceSite site, const Vector6d& step) {
+    if (site == SourceSite::kPlatform) platform += step;
+    if (site == SourceSite::kTool) tool += step;
+    if (site == SourceSite::kWorld) world += step;
+    if (site == SourceSite::kPoint) point += step.head<3>();
+  }
+  Eigen::Vector3d Moved(const BaseAndTool& mounts,
+                        const Pose3d& pose,
+                        const Eigen::Vector3d& p) const {
+    return Plus(Pose3d{}, world) * (mounts.world_from_base * Plus(pose, platform) *
+                                    Plus(mounts.platform_from_tool, tool) * p) +
+           point;
+  }
+};
+
+double At(const std::vector<double>& sorted, double share) {
+  const double last = static_cast<double>(sorted.size() - 1);
+  return sorted[static_cast<std::size_t>(std::lround(std::clamp(share, 0.0, 1.0) * last))];
+}
+
+}  // namespace
+
+TargetCheck CheckTarget(const Estimate& estimate,
+                        const std::vector<ErrorSource>& sources,
+                        const PropagationCheck& propagation,
+                        const Pose3d& base_from_platform,
+                        const Eigen::Vector3d& p_in_tool,
+                        double probability,
+                        std::uint64_t seed) {
+  CHECK_GT(propagation.estimates.cols(), 0) << "the draws were not kept";
+  Estimate known = estimate;
+  known.covariance = estimate.covariance_unscaled;
+  known.intervals = IntervalsOfKnownNoise(known.covariance);
+  std::vector<ErrorSource> of_known = sources;
+  for (ErrorSource& source : of_known)
+    source.degrees_of_freedom = std::numeric_limits<double>::infinity();
+  const TargetCovariance first_order =
+      TargetError(known, of_known).At(base_from_platform, p_in_tool);
+
+  std::mt19937_64 rng(seed);
+  std::vector<double> lengths;
+  double squares = 0.0;
+  for (Eigen::Index k = 0; k < propagation.estimates.cols(); ++k) {
+    const Vector12d d = propagation.estimates.col(k);
+    Motion motion;
+    for (const ErrorSource& source : sources) motion.Add(source.site, Draw(source, &rng));
+    const BaseAndTool found = {Plus(estimate.mounts.world_from_base, Vector6d(d.head<6>())),
+                               Plus(estimate.mounts.platform_from_tool, Vector6d(d.tail<6>()))};
+    const Eigen::Vector3d predicted =
+        found.world_from_base * base_from_platform * found.platform_from_tool * p_in_tool;
+    lengths.push_back(
+        (predicted - motion.Moved(estimate.mounts, base_from_platform, p_in_tool)).norm());
+    squares += lengths.back() * lengths.back();
+  }
+  std::sort(lengths.begin(), lengths.end());
+  const double n = static_cast<double>(lengths.size());
+
+  TargetCheck check;
+  check.draws = static_cast<int>(lengths.size());
+  check.rms = first_order.Rms();
+  check.quantile = first_order.Quantile(probability);
+  check.repeated_rms = std::sqrt(squares / n);
+  check.repeated_quantile = At(lengths, probability);
+  // By the order statistics two standard errors of a count to either side.
+  const double counts = 2.0 * std::sqrt(probability * (1.0 - probability) / n);
+  check.standard_error =
+      0.25 * (At(lengths, probability + counts) - At(lengths, probability - counts));
+  check.tolerance = NumericalTolerance(check.rms, kDigits);
+  check.agrees = std::abs(check.quantile - check.repeated_quantile) <=
+                 check.tolerance + 2.0 * check.standard_error;
+  return check;
+}
+
+}  // namespace hexcal

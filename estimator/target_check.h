@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "estimator/monte_carlo.h"
+#include "estimator/target_error.h"
+
+namespace hexcal {
+
+// The error of a target by repetition against that by first-order propagation (JCGM 101): every
+// repetition has base and tool as another measurement would have given them, and its own errors of
+// the sources, each of its own distribution, moved exactly.
+struct TargetCheck {
+  int draws = 0;
+  double rms = 0.0, repeated_rms = 0.0;            // m
+  double quantile = 0.0, repeated_quantile = 0.0;  // m
+  double standard_error = 0.0;                     // of repeated_quantile
+  double tolerance = 0.0;                          // half a unit of the RMS's second digit
+  bool agrees = false;  // quantiles differ by no more than tolerance and two standard errors
+};
+
+// propagation: with its draws kept, of the same estimate. Noise counts as known on both sides.
+TargetCheck CheckTarget(const Estimate& estimate,
+                        const std::vector<ErrorSource>& sources,
+                        const PropagationCheck& propagation,
+                        const Pose3d& base_from_platform,
+                        const Eigen::Vector3d& p_in_tool,
+                        double probability,
+                        std::uint64_t seed);
+
+}  // namespace hexcal

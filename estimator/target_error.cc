@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/target_error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimator/error_length.h"
+#include "estimator/quantiles.h"
+
+namespace hexcal {
+namespace {
+
+using Matrix36d = Eigen::Matrix<double, 3, 6>;
+
+constexpr double kUpper = 0.975;  // of Intervals' half widths
+// Beyond this t is the normal distribution to all digits that matter.
+constexpr double kMany = 1e7;
+
+Eigen::Matrix3d Carried(const Matrix36d& jacobian, const ErrorSource& source) {
+  Vector6d variance;
+  variance << Eigen::Vector3d::Constant(source.position * source.position),
+      Eigen::Vector3d::Constant(source.orientation * source.orientation);
+  return jacobian * variance.asDiagonal() * jacobian.transpose();
+}
+
+double LeastDegreesOfFreedom(const Estimate& estimate) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 12; ++i)
+    if (estimate.observability.determined[i])
+      least = std::min(least, estimate.intervals.degrees_of_freedom[i]);
+  return least;
+}
+
+}  // namespace
+
+double TargetCovariance::Rms() const { return std::sqrt(total.trace()); }
+
+double TargetCovariance::Quantile(double probability) const {
+  return LengthQuantile(total, probability, degrees_of_freedom);
+}
+
+Matrix12d CoverageCovariance(const Estimate& estimate) {
+  Vector12d widening = Vector12d::Ones();
+  for (int i = 0; i < 12; ++i) {
+    const double sigma = std::sqrt(estimate.covariance(i, i));
+    const double t =
+        StudentTQuantile(kUpper, std::min(estimate.intervals.degrees_of_freedom[i], kMany));
+    if (estimate.observability.determined[i] && sigma > 0.0)
+      widening[i] = estimate.intervals.half_width[i] / (t * sigma);
+  }
+  return widening.asDiagonal() * estimate.covariance * widening.asDiagonal();
+}
+
+Matrix36d PointJacobian(const Pose3d& a_from_b, const Eigen::Vector3d& p_in_b) {
+  const Eigen::Matrix3d rotation = a_from_b.rotation.toRotationMatrix();
+  Matrix36d jacobian;
+  jacobian << rotation, -rotation * Skew(p_in_b);
+  return jacobian;
+}
+
+Eigen::Matrix<double, 3, 12> TargetJacobian(const BaseAndTool& mounts,
+                                            const Pose3d& base_from_platform,
+                                            const Eigen::Vector3d& p_in_tool) {
+  const Pose3d base_from_tool = base_from_platform * mounts.platform_from_tool;
+  return PointJacobian(mounts.world_from_base * base_from_tool, p_in_tool) *
+         PaperJacobian(base_from_tool);
+}
+
+TargetError::TargetError(const Estimate& estimate, std::vector<ErrorSource> sources)
+    : mounts_(estimate.mounts),
+      covariance_(CoverageCovariance(estimate)),
+      degrees_of_freedom_(LeastDegreesOfFreedom(estimate)),
+      sources_(std::move(sources)) {}
+
+TargetCovariance TargetError::At(const Pose3d& base_from_platform,
+                                 const Eigen::Vector3d& p_in_tool) const {
+  const Pose3d world_from_platform = mounts_.world_from_base * base_from_platform;
+  const Pose3d world_from_tool = world_from_platform * mounts_.platform_from_tool;
+  TargetCovariance target;
+  target.p_in_world = world_from_tool * p_in_tool;
+  const Eigen::Matrix<double, 3, 12> j = TargetJacobian(mounts_, base_from_platform, p_in_tool);
+  target.calibration = j * covariance_ * j.transpose();
+  target.total = target.calibration;
+  double per_freedom = std::pow(target.calibration.trace(), 2) / degrees_of_freedom_;
+  for (const ErrorSource& source : sources_) {
+    Matrix36d carry = Matrix36d::Zero();
+    switch (source.site) {
+      case SourceSite::kPlatform:
+        carry = PointJacobian(world_from_platform, mounts_.platform_from_tool * p_in_tool);
+        break;
+      case SourceSite::kTool:
+        carry = PointJacobian(world_from_tool, p_in_tool);
+        break;
+      case SourceSite::kWorld:
+        carry = PointJacobian(Pose3d{}, target.p_in_world);
+        break;
+      case SourceSite::kPoint:
+        carry.leftCols<3>().setIdentity();
+        break;
+    }
+    target.shares.push_back(Carried(carry, source));
+    target.total += target.shares.back();
+    per_freedom += std::pow(target.shares.back().trace(), 2) / source.degrees_of_freedom;
+  }
+  target.degrees_of_freedom = per_freedom > 0.0 ? std::pow(target.total.trace(), 2) / per_freedom
+                                                : std::numeric_limits<double>::infinity();
+  return target;
+}
+
+}  // namespace hexcal

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "estimator/target_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "estimator/calibrate.h"
+#include "testing/scenes.h"
+
+namespace hexcal {
+namespace {
+
+using ::hexcal::testing::SeededByTest;
+
+const Eigen::Vector3d kTip(0.01, -0.02, 0.12);
+
+struct Scene {
+  Observations observations;
+  Estimate estimate;
+  PropagationCheck propagation;
+};
+
+Scene MakeScene(double position, double orientation) {
+  auto rng = SeededByTest();
+  const BaseAndTool truth = testing::AnyMounts(rng);
+  auto rows = testing::HexapodObservations(rng, truth, 20);
+  const Matrix6d noise = testing::Isotropic(position, orientation);
+  testing::AddNoise(rng, noise, &rows);
+  Scene scene;
+  scene.observations = testing::KnownNoise(rows, noise);
+  scene.estimate = Calibrate(scene.observations, {}, {});
+  MonteCarloOptions options;
+  options.keep_draws = true;
+  scene.propagation = CheckPropagation(scene.observations, {}, scene.estimate, options);
+  return scene;
+}
+
+TEST(TargetCheck, FirstOrderAndRepetitionAgreeWhereNoiseIsSmall) {
+  const Scene scene = MakeScene(1e-4, 5e-4);
+  ASSERT_EQ(scene.propagation.estimates.cols(), scene.propagation.draws);
+  const std::vector<ErrorSource> sources = {
+      {"robot", SourceSite::kPlatform, 2e-5, 1e-4},
+      {"registration", SourceSite::kWorld, 5e-5, 2e-4},
+      {"clamping", SourceSite::kTool, 1e-5, 1e-4, Spread1d::kUniform},
+      {"tip", SourceSite::kPoint, 5e-5, 0.0, Spread1d::kUniform}};
+  const Pose3d pose = scene.observations.items[3].base_from_platform;
+  const TargetCheck check =
+      CheckTarget(scene.estimate, sources, scene.propagation, pose, kTip, 0.95, 1);
+  EXPECT_NEAR(check.repeated_rms / check.rms, 1.0, 0.02);
+  EXPECT_NEAR(check.repeated_quantile / check.quantile, 1.0, 0.03);
+  EXPECT_TRUE(check.agrees);
+  EXPECT_LT(check.standard_error, 0.02 * check.quantile);
+  EXPECT_GT(check.standard_error, 0.0);
+}
+
+// Angles of half a radian bend what first order takes for straight.
+TEST(TargetCheck, SeesWhatFirstOrderMisses) {
+  const Scene scene = MakeScene(1e-4, 5e-4);
+  const std::vector<ErrorSource> sources = {{"loose", SourceSite::kPlatform, 0.0, 0.6}};
+  const Pose3d pose = scene.observations.items[3].base_from_platform;
+  const TargetCheck check =
+      CheckTarget(scene.estimate, sources, scene.propagation, pose, kTip, 0.95, 1);
+  EXPECT_FALSE(check.agrees);
+  EXPECT_LT(check.repeated_quantile, check.quantile);
+}
+
+// Every source counts: without its motion the repetition would be shorter.
+TEST(TargetCheck, DrawsEverySource) {
+  const Scene scene = MakeScene(1e-6, 5e-6);
+  const Pose3d pose = scene.observations.items[3].base_from_platform;
+  for (const SourceSite site :
+       {SourceSite::kPlatform, SourceSite::kTool, SourceSite::kWorld, SourceSite::kPoint})
+    for (const Spread1d spread : {Spread1d::kNormal, Spread1d::kUniform}) {
+      const std::vector<ErrorSource> sources = {{"one", site, 1e-3, 1e-3, spread}};
+      const TargetCheck check =
+          CheckTarget(scene.estimate, sources, scene.propagation, pose, kTip, 0.95, 1);
+      EXPECT_NEAR(check.repeated_rms / check.rms, 1.0, 0.02);
+    }
+}
+
+}  // namespace
+}  // namespace hexcal
