@@ -8,6 +8,7 @@
 
 #include "apps/calibrate_options.h"
 #include "apps/dataset_files.h"
+#include "apps/estimate_mounts.h"
 #include "apps/exit_status.h"
 #include "apps/flags.h"
 #include "apps/in_order.h"
@@ -17,7 +18,6 @@
 #include "apps/record_of.h"
 #include "config/input_error.h"
 #include "estimator/calibrate_grown.h"
-#include "estimator/calibrate_markers.h"
 #include "model/machine.h"
 #include "report/result_table.h"
 
@@ -111,48 +111,21 @@ class CalibrateRun {
     return !HasEffects() && IsByMarkers(dataset, options_);
   }
 
-  // The paper's problem has nothing to do with the noise: nothing is certified of it.
-  bool IsByEqualWeights() const {
-    return options_.solver == Solver::kLinearized &&
-           options_.linearized.error == LinearizedOptions::Error::kPaper;
-  }
-
   void EstimateWithEffects(const Dataset& dataset, Outcome* outcome) const {
+    InitialOf(dataset, options_);  // refuses a start that the dataset does not have
     GrownCalibration grown = CalibrateGrown(dataset, model_, options_);
     outcome->estimate = std::move(grown.estimate);
     outcome->grown = std::move(grown.machine);
-  }
-
-  void EstimateMounts(const Dataset& dataset,
-                      const std::optional<BaseAndTool>& initial,
-                      Outcome* outcome) const {
-    const Observations observations = MakeObservations(dataset);
-    outcome->estimate =
-        IsByMarkers(dataset, options_)
-            ? CalibrateMarkers(
-                  observations, MakeMarkerObservations(dataset, observations), initial, options_)
-            : Calibrate(observations, initial, options_);
-    if (!IsByEqualWeights())
-      outcome->estimate->certificate =
-          Certify(observations,
-                  LevelsOf(observations, options_.noise, *outcome->estimate),
-                  *outcome->estimate);
   }
 
   Outcome Work(const Dataset& dataset) const {
     const auto start = std::chrono::steady_clock::now();
     Outcome outcome;
     try {
-      std::optional<BaseAndTool> initial;
-      if (dataset.initial)
-        initial = {dataset.initial->world_from_base, dataset.initial->platform_from_tool};
-      if (options_.start == Start::kInitial && !initial)
-        throw InputError(
-            FileLocation(dataset.path), "no key 'initial'", "a first guess for --start=initial");
       if (HasEffects())
         EstimateWithEffects(dataset, &outcome);
       else
-        EstimateMounts(dataset, initial, &outcome);
+        outcome.estimate = EstimateMounts(dataset, MakeObservations(dataset), options_);
     } catch (const InputError& error) {
       outcome.refusal = error.what();
     }
@@ -161,23 +134,12 @@ class CalibrateRun {
     return outcome;
   }
 
-  static Machine MachineOf(const Job& job, const Estimate& estimate) {
-    Machine machine{job.dataset.name,
-                    estimate.mounts.world_from_base,
-                    estimate.mounts.platform_from_tool,
-                    {},
-                    job.dataset.hexapod};
-    if (estimate.tracker_from_world)
-      machine.world_from_tracker = estimate.tracker_from_world->Inverse();
-    return machine;
-  }
-
   void Finish(Job* job, const Outcome& outcome) {
     if (!outcome.estimate) return Refuse(InputError(outcome.refusal));
     const Estimate& estimate = *outcome.estimate;
     const ResultHeader header =
         HeaderOf(job->dataset.name, options_, IsByMarkersHere(job->dataset));
-    const Machine machine = outcome.grown ? *outcome.grown : MachineOf(*job, estimate);
+    const Machine machine = outcome.grown ? *outcome.grown : MachineOf(job->dataset, estimate);
     job->folder.Write("model.yaml", WriteMachine(machine));
     job->folder.Write("run.json",
                       RunJson(RecordOf("calibrate", job->dataset, outcome.seconds, threads_)));

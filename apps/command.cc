@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "apps/audit.h"
 #include "apps/calibrate.h"
 #include "apps/compare.h"
 #include "apps/discover.h"
@@ -82,6 +83,49 @@ const Command kCompare = {
      {"quiet"},
      {"force"}},
     &RunCompare,
+};
+
+const Command kAudit = {
+    "audit",
+    "how accurate the calibrated machine is, and whether that is enough",
+    "DATASET",
+    1,
+    1,
+    "Calibrates base and tool, says how far points of the tool may be from where they are "
+    "predicted "
+    "(target registration error, from the covariance of the 12 parameters, the robot's own error "
+    "and what else the requirement file states), checks that by repetition, and decides for each "
+    "requirement: PASS, FAIL or INCONCLUSIVE, with a guard band. Writes report.html (open it in a "
+    "browser), audit.json, "
+    "result.json, model.yaml and run.json to DIR/<name>/. Exit status 7 with --gate: a requirement "
+    "failed; 4: "
+    "the 12 parameters cannot be trusted.",
+    {{"out", true, "DIR", "The results go to DIR/<name>/."},
+     {"requirement"},
+     {"previous"},
+     {"gate"},
+     {"solver"},
+     {"residual"},
+     {"start"},
+     {"outliers"},
+     {"loss"},
+     {"loss_scale"},
+     {"covariance"},
+     {"noise_position"},
+     {"noise_orientation"},
+     {"error"},
+     {"unit_magnitude"},
+     {"iterations"},
+     {"tolerance"},
+     {"folds"},
+     {"draws"},
+     {"seed", false, {}, "The same seed draws the same folds and repetitions."},
+     {"config"},
+     {"threads"},
+     {"json"},
+     {"quiet"},
+     {"force"}},
+    &RunAudit,
 };
 
 const Command kDiscover = {
@@ -226,7 +270,7 @@ const CommandFlag* Command::FindFlag(std::string_view flag) const {
 
 const std::vector<Command>& Commands() {
   static const std::vector<Command> commands = {
-      kCalibrate, kCompare, kDiscover, kImport, kPlan, kPredict, kSimulate};
+      kAudit, kCalibrate, kCompare, kDiscover, kImport, kPlan, kPredict, kSimulate};
   return commands;
 }
 

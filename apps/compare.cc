@@ -8,6 +8,7 @@
 
 #include "apps/calibrate_options.h"
 #include "apps/dataset_files.h"
+#include "apps/estimate_mounts.h"
 #include "apps/exit_status.h"
 #include "apps/flags.h"
 #include "apps/in_order.h"
@@ -15,7 +16,6 @@
 #include "apps/output_folder.h"
 #include "apps/record_of.h"
 #include "apps/stage_bars.h"
-#include "config/input_error.h"
 #include "report/compare_json.h"
 #include "report/compare_table.h"
 
@@ -33,15 +33,6 @@ CompareOptions OptionsFromFlags() {
   options.seed = static_cast<std::uint64_t>(FLAGS_seed);
   options.threads = ThreadsFor(FLAGS_threads);
   return options;
-}
-
-std::optional<BaseAndTool> InitialOf(const Dataset& dataset, const CalibrateOptions& options) {
-  if (dataset.initial)
-    return BaseAndTool{dataset.initial->world_from_base, dataset.initial->platform_from_tool};
-  if (options.start == Start::kInitial)
-    throw InputError(
-        FileLocation(dataset.path), "no key 'initial'", "a first guess for --start=initial");
-  return std::nullopt;
 }
 
 Comparison CompareWithBars(const Dataset& dataset, CompareOptions options) {

@@ -11,7 +11,8 @@ enum ExitStatus : int {
   kInputRefused = 3,
   kNotTrusted = 4,  // no convergence, or a direction that the data cannot determine
   kCannotWrite = 5,
-  kSomeFailed = 6,  // of several datasets
+  kSomeFailed = 6,         // of several datasets
+  kRequirementFailed = 7,  // under audit --gate
   kInterrupted = 130,
 };
 

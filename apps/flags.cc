@@ -138,6 +138,15 @@ DEFINE_int32(pool,
              300,
              "From so many poses within reach they are chosen; for rivals each comes with up to "
              "three settings of the covariates.");
+DEFINE_string(
+    requirement,
+    "",
+    "What accuracy is asked for, of which points of the tool, and where (docs/audit.md).");
+DEFINE_string(previous,
+              "",
+              "The result.json of an earlier calibration: what has changed since, against its "
+              "uncertainty.");
+DEFINE_bool(gate, false, "Exit status 7 where a requirement fails. Goes with --requirement.");
 DEFINE_int32(threads, 0, "Threads to use. The results do not depend on it.");
 DEFINE_bool(json, false, "Print the results as JSON instead, one object a line.");
 DEFINE_bool(quiet, false, "Print no results and no progress; warnings and errors stay.");
@@ -151,6 +160,7 @@ constexpr std::string_view kMethod = "Method";
 constexpr std::string_view kNoise = "Noise";
 constexpr std::string_view kLinearized = "The linearized solver";
 constexpr std::string_view kComparison = "Comparison";
+constexpr std::string_view kAccuracy = "Accuracy";
 constexpr std::string_view kDiscovery = "Discovery";
 constexpr std::string_view kFiles = "What the files do not say";
 constexpr std::string_view kPlanning = "Planning";
@@ -195,6 +205,9 @@ std::vector<FlagSpec> MakeSpecs() {
       {"folds", kComparison, "N", "", {}, 2, 1000},
       {"draws", kComparison, "N", "", {}, 1000, 1e7},
       {"starts", kComparison, "N", "", {}, 0, 10000},
+      {"requirement", kAccuracy, "FILE.yaml", ""},
+      {"previous", kAccuracy, "FILE.json", ""},
+      {"gate", kAccuracy, "", ""},
       {"alpha", kDiscovery, "P", "", {}, 1e-4, 0.2},
       {"bootstraps", kDiscovery, "N", "", {}, 99, 100000},
       {"robot", kFiles, "FILE", ""},

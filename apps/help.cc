@@ -86,6 +86,7 @@ Exit status
        data cannot determine (the result is written, and says so)
   5    a file could not be written
   6    some of several datasets failed (the rest are done)
+  7    a requirement failed, under audit --gate
   130  interrupted
 )";
 

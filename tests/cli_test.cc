@@ -123,8 +123,9 @@ TEST(Cli, AnUnknownFlagGetsTheNearestOne) {
 }
 
 TEST(Cli, AFlagOfAnotherCommandSaysWhose) {
-  ExpectWrongUsage({"predict", "d.yaml", "--seed=3"},
-                   "predict: takes no --seed (that is for compare, discover, plan, simulate)");
+  ExpectWrongUsage(
+      {"predict", "d.yaml", "--seed=3"},
+      "predict: takes no --seed (that is for audit, compare, discover, plan, simulate)");
 }
 
 TEST(Cli, GflagsOwnFlagsAreUnknown) {

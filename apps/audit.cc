@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/audit.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <optional>
+
+#include "apps/calibrate_options.h"
+#include "apps/dataset_files.h"
+#include "apps/estimate_mounts.h"
+#include "apps/exit_status.h"
+#include "apps/flags.h"
+#include "apps/in_order.h"
+#include "apps/message.h"
+#include "apps/output_folder.h"
+#include "apps/record_of.h"
+#include "apps/stage_bars.h"
+#include "apps/usage_error.h"
+#include "report/audit_html.h"
+#include "report/audit_json.h"
+#include "report/audit_table.h"
+#include "report/html/page.h"
+#include "report/result_json.h"
+
+namespace hexcal {
+namespace {
+
+constexpr std::string_view kAuditMark = R"("format": "hexcal/audit/)";
+
+CompareOptions ComparisonOf(const Dataset& dataset, const CalibrateOptions& options) {
+  CompareOptions compare;
+  compare.calibrate = options;
+  compare.calibrate.loss = {};
+  compare.calibrate.covariance = CovarianceKind::kModel;
+  compare.folds = FLAGS_folds;
+  compare.draws = FLAGS_draws;
+  compare.keep_draws = true;
+  compare.starts = 0;
+  compare.seed = static_cast<std::uint64_t>(FLAGS_seed);
+  compare.threads = ThreadsFor(FLAGS_threads);
+  if (dataset.measurement->kind == Measurement::Kind::kMarkers)
+    compare.markers = [&dataset](const Observations& some) {
+      return MakeMarkerObservations(dataset, some);
+    };
+  return compare;
+}
+
+// Everything but the settings that say where results go and how they are shown.
+bool Matters(std::string_view setting) {
+  for (const char* other : {"out", "config", "threads", "json", "quiet", "force", "gate"})
+    if (setting == other) return false;
+  return true;
+}
+
+AuditIdentity IdentityOf(const RunRecord& record, const std::string& result) {
+  AuditIdentity identity;
+  identity.inputs = HashFiles(record.inputs);
+  std::string all;
+  for (const HashedFile& file : identity.inputs) all += file.sha256 + "\n";
+  for (const auto& [name, value] : record.settings)
+    if (Matters(name)) all += fmt::format("{}={}\n", name, value);
+  identity.id = Sha256(all + result);
+  return identity;
+}
+
+std::vector<std::string> AllInputs(const Dataset& dataset) {
+  std::vector<std::string> files = InputFiles(dataset, "");
+  if (!FLAGS_requirement.empty()) files.push_back(FLAGS_requirement);
+  if (!FLAGS_previous.empty()) files.push_back(FLAGS_previous);
+  return files;
+}
+
+Audit AuditDataset(const Dataset& dataset,
+                   const std::optional<Requirements>& requirements,
+                   const std::optional<EarlierResult>& earlier) {
+  CalibrateOptions options = CalibrateOptionsFromFlags();
+  const bool by_markers = IsByMarkers(dataset, options);
+  options.threads = ThreadsFor(FLAGS_threads);
+  const Observations observations = MakeObservations(dataset);
+  StageBars bars(FLAGS_quiet);
+  Estimate estimate = EstimateMounts(dataset, observations, options);
+  CompareOptions compare = ComparisonOf(dataset, options);
+  compare.progress = [&bars](std::string_view label, long done, long of) {
+    bars.Update(label, done, of);
+  };
+  Comparison comparison = Compare(observations, InitialOf(dataset, options), compare);
+  const NoiseLevels levels = LevelsOf(observations, options.noise, comparison.reference);
+  return MakeAudit({dataset,
+                    observations,
+                    levels,
+                    HeaderOf(dataset.name, options, by_markers),
+                    std::move(estimate),
+                    std::move(comparison),
+                    requirements,
+                    earlier,
+                    compare.seed});
+}
+
+}  // namespace
+
+int RunAudit(const std::vector<std::string>& files) {
+  const auto start = std::chrono::steady_clock::now();
+  if (FLAGS_gate && FLAGS_requirement.empty())
+    throw UsageError("--gate needs a --requirement to gate by");
+  const Dataset dataset = OpenDataset(files[0], true);
+  IsByMarkers(dataset, CalibrateOptionsFromFlags());  // wrong usage shows before anything is read
+  std::optional<Requirements> requirements;
+  if (!FLAGS_requirement.empty()) requirements = ReadRequirements(FLAGS_requirement);
+  std::optional<EarlierResult> earlier;
+  if (!FLAGS_previous.empty()) earlier = ReadEarlierResult(FLAGS_previous);
+  OutputFolder folder(FLAGS_out,
+                      dataset.name,
+                      {{"audit.json", std::string(kAuditMark)},
+                       {"result.json", std::string(kResultMark)},
+                       {"model.yaml", std::string(kModelMark)},
+                       {"run.json", std::string(kRunMark)},
+                       {"report.html", HtmlPage::Mark("audit")}},
+                      AllInputs(dataset),
+                      FLAGS_force);
+  const Audit audit = AuditDataset(dataset, requirements, earlier);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  RunRecord record = RecordOf("audit", dataset, seconds, ThreadsFor(FLAGS_threads));
+  record.inputs = AllInputs(dataset);
+  const std::string result = ResultJson(audit.header, audit.estimate);
+  const AuditIdentity identity = IdentityOf(record, result);
+  folder.Write("model.yaml", WriteMachine(MachineOf(dataset, audit.estimate)));
+  folder.Write("run.json", RunJson(record));
+  folder.Write("result.json", result);
+  folder.Write("report.html", AuditHtml(identity, record, audit));
+  folder.Write("audit.json", AuditJson(identity, audit));
+  PrintNewWarnings(dataset, audit.estimate.warnings, "audit.json");
+  if (FLAGS_json && !FLAGS_quiet)
+    fmt::print("{}\n", AuditJsonLine(identity, audit));
+  else if (!FLAGS_quiet)
+    fmt::print("{}  {:<15}{}\n\n", AuditTable(audit), "written to", folder.path());
+  if (!audit.estimate.IsTrustworthy()) return kNotTrusted;
+  return FLAGS_gate && audit.compliance == Compliance::kFail ? kRequirementFailed : kDone;
+}
+
+}  // namespace hexcal

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/accuracy_charts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/chart_parts.h"
+#include "report/html/escape.h"
+#include "report/quantity.h"
+
+namespace hexcal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMilli = 1e3;
+
+Json Scaled(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double value : values)
+    list.push_back(std::isfinite(value) ? Json(kMilli * value) : Json());
+  return list;
+}
+
+}  // namespace
+
+Chart CorrelationChart(const Estimate& estimate) {
+  Chart chart;
+  chart.title = "Correlation of the 12 parameters";
+  chart.shows =
+      "how the errors of base and tool hang together: 1 and -1 always, 0 not at all (each small "
+      "motion along and about the axes of its own frame).";
+  chart.good =
+      "pale off the diagonal. Strong pairs are not wrong: the data tell their sum better than each "
+      "alone, and the uncertainty of a point of the tool takes that into account.";
+  chart.table = {{{""}}, {}};
+  Json names = Json::array(), rows = Json::array();
+  for (int i = 0; i < 12; ++i) {
+    const std::string name(kParameters[i].name);
+    names.push_back(name);
+    chart.table.columns.push_back({name, true});
+    Json row = Json::array();
+    std::vector<std::string> texts = {name};
+    for (int j = 0; j < 12; ++j) {
+      const bool is_known =
+          estimate.observability.determined[i] && estimate.observability.determined[j];
+      const double value = estimate.covariance(i, j) /
+                           std::sqrt(estimate.covariance(i, i) * estimate.covariance(j, j));
+      row.push_back(is_known ? Json(value) : Json());
+      texts.push_back(is_known ? fmt::format("{:.2f}", value) : "–");
+    }
+    rows.push_back(row);
+    chart.table.rows.push_back(texts);
+  }
+  chart.data = Json::array({{{"type", "heatmap"},
+                             {"x", names},
+                             {"y", names},
+                             {"z", rows},
+                             {"coloraxis", "coloraxis"},
+                             {"hovertemplate", "%{y}, %{x}: %{z:.2f}<extra></extra>"}}});
+  Json y = OpenAxis("");
+  y["autorange"] = "reversed";
+  Json x = OpenAxis("");
+  x["tickangle"] = -90;
+  chart.layout = {
+      {"height", 470}, {"xaxis", x}, {"yaxis", y}, {"coloraxis", DivergingColours(1.0, "")}};
+  return chart;
+}
+
+Chart BudgetChart(const PointReport& report) {
+  Chart chart;
+  chart.title = fmt::format("What the error of {} is made of", report.point.name);
+  chart.shows =
+      "the part of the variance that each source has where the error is worst in the workspace.";
+  chart.good = "no single surprise: the longest bar is where better work pays.";
+  Json names = Json::array(), shares = Json::array();
+  for (const BudgetRow& row : report.budget) {
+    names.push_back(EscapeLabel(row.name));
+    shares.push_back(100.0 * row.share);
+  }
+  chart.data = Json::array({{{"type", "bar"},
+                             {"orientation", "h"},
+                             {"y", names},
+                             {"x", shares},
+                             {"marker", {{"color", "@after"}}}}});
+  Json y = OpenAxis("");
+  y["autorange"] = "reversed";
+  chart.layout = {{"height", 130 + 34 * static_cast<int>(report.budget.size())},
+                  {"xaxis", Axis("% of the variance", true)},
+                  {"yaxis", y}};
+  return chart;
+}
+
+Chart MapChart(const PointReport& report) {
+  const AccuracyMap& map = report.map;
+  Chart chart;
+  chart.title = fmt::format("The error of {} over the workspace", report.point.name);
+  chart.shows =
+      "the length (mm) that the error does not exceed with 95 %, by the platform's position x, y "
+      "at "
+      "three heights z, each with the worst of the orientations; the colours begin at zero.";
+  chart.good = "even colours; colours that deepen to one side say where to measure more poses.";
+  chart.table = {{{"z, mm", true}, {"y, mm", true}}, {}};
+  for (const double x : map.x)
+    chart.table.columns.push_back({fmt::format("x {:.4g}", kMilli * x), true});
+  const int heights = static_cast<int>(map.z.size());
+  for (int k = 0; k < heights; ++k) {
+    Json rows = Json::array();
+    for (std::size_t j = 0; j < map.y.size(); ++j) {
+      rows.push_back(Scaled(map.lengths[k][j]));
+      std::vector<std::string> texts = {fmt::format("{:.4g}", kMilli * map.z[k]),
+                                        fmt::format("{:.4g}", kMilli * map.y[j])};
+      for (const double length : map.lengths[k][j])
+        texts.push_back(std::isfinite(length) ? fmt::format("{:.4f}", kMilli * length) : "–");
+      chart.table.rows.push_back(texts);
+    }
+    chart.data.push_back({{"type", "heatmap"},
+                          {"x", Scaled(map.x)},
+                          {"y", Scaled(map.y)},
+                          {"z", rows},
+                          {"coloraxis", "coloraxis"},
+                          {"xaxis", k == 0 ? "x" : fmt::format("x{}", k + 1)},
+                          {"yaxis", k == 0 ? "y" : fmt::format("y{}", k + 1)},
+                          {"hovertemplate", "x %{x}, y %{y}: %{z:.4f} mm<extra></extra>"}});
+    chart.layout[AxisKey("xaxis", k + 1)] =
+        OpenAxis(fmt::format("x, mm (z {:.4g})", kMilli * map.z[k]));
+    Json y = OpenAxis(k == 0 ? "y, mm" : "");
+    if (k > 0) y["showticklabels"] = false;
+    chart.layout[AxisKey("yaxis", k + 1)] = y;
+  }
+  chart.layout["grid"] = {
+      {"rows", 1}, {"columns", heights}, {"pattern", "independent"}, {"xgap", 0.08}};
+  chart.layout["height"] = 330;
+  Json scale = Json::array();
+  scale.push_back(Json::array({0.0, "@middle"}));
+  scale.push_back(Json::array({1.0, "@high"}));
+  chart.layout["coloraxis"] = {{"cmin", 0},
+                               {"colorscale", scale},
+                               {"colorbar", {{"title", {{"text", "mm"}}}, {"thickness", 12}}}};
+  return chart;
+}
+
+}  // namespace hexcal

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/audit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "estimator/quantiles.h"
+#include "estimator/registration_error.h"
+#include "geometry/rotation_angles.h"
+#include "report/decide.h"
+
+namespace hexcal {
+namespace {
+
+constexpr double kProbability = 0.95;
+constexpr double kAlpha = 0.01, kPower = 0.8;  // of the smallest errors that would be found
+constexpr double kStrong = 0.9;                // a correlation that is listed
+
+// The robot's own error as a source: from the requirement file, else from the dataset.
+std::optional<StatedSource> RobotOf(const AuditInput& input) {
+  if (input.requirements && input.requirements->robot) return input.requirements->robot;
+  if (!input.observations.has_robot_noise) return std::nullopt;
+  Vector6d mean = Vector6d::Zero();
+  for (const Observation& o : input.observations.items) mean += o.robot_covariance.diagonal();
+  mean /= static_cast<double>(input.observations.items.size());
+  StatedSource robot;
+  robot.origin = "the dataset's robot_poses: noise, mean over poses and axes";
+  robot.source.position = std::sqrt(mean.head<3>().mean());
+  robot.source.orientation = std::sqrt(mean.tail<3>().mean());
+  return robot;
+}
+
+Requirements RequirementsOf(const AuditInput& input) {
+  Requirements requirements = input.requirements.value_or(Requirements{});
+  requirements.robot = RobotOf(input);
+  if (requirements.robot) requirements.robot->source.name = "robot's own error";
+  if (requirements.points.empty()) requirements.points.push_back({"origin of frame T"});
+  return requirements;
+}
+
+GlobalTest GlobalTestOf(const Estimate& estimate) {
+  GlobalTest test;
+  test.is_stated = !estimate.noise.estimated;
+  const double dof = estimate.degrees_of_freedom;
+  test.low = ChiSquareQuantile(0.5 * (1.0 - kProbability), dof);
+  test.high = ChiSquareQuantile(0.5 * (1.0 + kProbability), dof);
+  test.is_too_large = test.is_stated && estimate.chi_square > test.high;
+  test.is_too_small = test.is_stated && estimate.chi_square < test.low;
+  return test;
+}
+
+// The largest k with a probability of 99 % or more that k or more of n lie inside, each with 95 %
+// (the binomial distribution).
+int FewestInside(int n) {
+  constexpr double kSure = 0.99;
+  double of_this = std::pow(1.0 - kProbability, n);  // the probability of exactly k inside
+  double of_fewer = 0.0;
+  int k = 0;
+  while (k < n && of_fewer + of_this <= 1.0 - kSure) {
+    of_fewer += of_this;
+    of_this *= kProbability / (1.0 - kProbability) * (n - k) / (k + 1);
+    ++k;
+  }
+  return k;
+}
+
+HeldOutTest HeldOutTestOf(const std::vector<PoseCheck>& poses) {
+  HeldOutTest test;
+  test.poses = static_cast<int>(poses.size());
+  test.fewest = FewestInside(test.poses);
+  const double limit = ChiSquareQuantile(kProbability, 6.0);
+  Eigen::Vector4d squares = Eigen::Vector4d::Zero();
+  for (const PoseCheck& pose : poses) {
+    test.inside += pose.squared <= limit;
+    squares += Eigen::Vector4d(pose.held_out.head<3>().squaredNorm(),
+                               std::pow(pose.expected_position, 2),
+                               pose.held_out.tail<3>().squaredNorm(),
+                               std::pow(pose.expected_orientation, 2));
+  }
+  squares = (squares / std::max(test.poses, 1)).cwiseSqrt();
+  test.rms_position = squares[0], test.expected_position = squares[1];
+  test.rms_orientation = squares[2], test.expected_orientation = squares[3];
+  return test;
+}
+
+std::vector<Correlation> StrongCorrelations(const Estimate& estimate) {
+  std::vector<Correlation> strong;
+  const auto& determined = estimate.observability.determined;
+  for (int a = 0; a < 12; ++a)
+    for (int b = a + 1; b < 12; ++b) {
+      const Matrix12d& c = estimate.covariance;
+      const double value = c(a, b) / std::sqrt(c(a, a) * c(b, b));
+      if (determined[a] && determined[b] && std::abs(value) > kStrong)
+        strong.push_back({a, b, value});
+    }
+  return strong;
+}
+
+std::vector<BodyReport> BodiesOf(const Dataset& dataset,
+                                 const Estimate& estimate,
+                                 const Audit& audit) {
+  std::vector<BodyReport> bodies;
+  if (dataset.measurement->kind != Measurement::Kind::kMarkers) return bodies;
+  const auto sigma =
+      dataset.measurement->marker_sigma ? dataset.measurement->marker_sigma : estimate.noise.marker;
+  if (!sigma) return bodies;
+  for (int b = 0; b < 2; ++b) {
+    const MarkerBody& body = dataset.measurement->bodies[b];
+    if (body.is_centroid) continue;
+    BodyReport report;
+    report.name = b == 0 ? "base" : "tool";
+    report.markers = body.p_in_body.cols();
+    report.sigma = std::sqrt(sigma->squaredNorm() / 3.0);
+    report.fiducial = FiducialRegistrationError(report.markers, report.sigma);
+    if (b == 1)
+      for (const NamedPoint& point : audit.requirements.points)
+        report.at_points.push_back(
+            TargetRegistrationError(body.p_in_body, report.sigma, point.p_in_tool));
+    bodies.push_back(report);
+  }
+  return bodies;
+}
+
+Change ChangeOf(const EarlierResult& earlier, const Audit& audit) {
+  Change change;
+  change.earlier = earlier;
+  const BaseAndTool& now = audit.estimate.mounts;
+  change.difference << Minus(now.world_from_base, earlier.mounts.world_from_base),
+      Minus(now.platform_from_tool, earlier.mounts.platform_from_tool);
+  const Matrix12d covariance = audit.estimate.covariance + earlier.covariance;
+  bool all = true;
+  for (int i = 0; i < 12; ++i) {
+    const bool is_determined = audit.estimate.observability.determined[i] && earlier.determined[i];
+    all = all && is_determined;
+    change.sigmas[i] = is_determined ? change.difference[i] / std::sqrt(covariance(i, i))
+                                     : std::numeric_limits<double>::quiet_NaN();
+  }
+  change.chi_square = change.p_value = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::LLT<Matrix12d> factor(covariance);
+  if (all && factor.info() == Eigen::Success) {
+    change.chi_square = change.difference.dot(factor.solve(change.difference));
+    change.p_value = ChiSquareTail(change.chi_square, 12.0);
+  }
+  const Pose3d centre = PoseFromVector(audit.workspace.Centre());
+  for (const NamedPoint& point : audit.requirements.points)
+    change.at_points.push_back(
+        (now.world_from_base * centre * now.platform_from_tool * point.p_in_tool -
+         earlier.mounts.world_from_base * centre * earlier.mounts.platform_from_tool *
+             point.p_in_tool)
+            .norm());
+  return change;
+}
+
+PointAt AtPlace(const TargetError& error, const NamedPoint& point, const Place& place) {
+  const TargetCovariance at = error.At(place.base_from_platform, point.p_in_tool);
+  return {place, at.Rms(), at.Quantile(kProbability)};
+}
+
+std::vector<BudgetRow> BudgetOf(const Audit& audit, const TargetCovariance& at) {
+  std::vector<BudgetRow> rows;
+  const double total = at.total.trace();
+  const auto add = [&](const std::string& name,
+                       const std::string& origin,
+                       char type,
+                       const Eigen::Matrix3d& share,
+                       double dof) {
+    rows.push_back({name, origin, type, std::sqrt(share.trace()), share.trace() / total, dof});
+  };
+  add("calibration of base and tool",
+      "the covariance of the 12 parameters",
+      'A',
+      at.calibration,
+      audit.estimate.intervals.degrees_of_freedom.minCoeff());
+  std::size_t i = 0;
+  const Requirements& stated = audit.requirements;
+  if (stated.robot)
+    add(stated.robot->source.name,
+        stated.robot->origin,
+        'B',
+        at.shares[i++],
+        stated.robot->source.degrees_of_freedom);
+  for (const StatedSource& source : stated.sources)
+    add(source.source.name, source.origin, 'B', at.shares[i++], source.source.degrees_of_freedom);
+  add("the point in frame T",
+      "its standard_deviation",
+      'B',
+      at.shares[i],
+      std::numeric_limits<double>::infinity());
+  return rows;
+}
+
+PointReport ReportPoint(const Audit& audit,
+                        const NamedPoint& point,
+                        const std::vector<Place>& places,
+                        const AuditInput& input) {
+  const std::vector<ErrorSource> sources = SourcesOf(audit, point);
+  const TargetError error(audit.estimate, sources);
+  PointReport report;
+  report.point = point;
+  report.centre = AtPlace(error, point, {"", PoseFromVector(audit.workspace.Centre())});
+  report.worst =
+      AtPlace(error, point, WorstPlace(error, point.p_in_tool, places, kProbability).place);
+  const Pose3d& pose = report.worst.place.base_from_platform;
+  report.budget = BudgetOf(audit, error.At(pose, point.p_in_tool));
+  const PropagationCheck& propagation = audit.comparison.propagation;
+  if (propagation.done)
+    report.check = CheckTarget(audit.comparison.reference,
+                               sources,
+                               propagation,
+                               pose,
+                               point.p_in_tool,
+                               kProbability,
+                               input.seed);
+  report.map = MapAccuracy(error, point.p_in_tool, audit.workspace, input.dataset, kProbability);
+  return report;
+}
+
+std::vector<std::string> DoubtsOf(const Audit& audit) {
+  std::vector<std::string> doubts;
+  const Estimate& estimate = audit.estimate;
+  if (!audit.robot_is_stated)
+    doubts.push_back(
+        "nothing is stated of the robot's own error (robot: in the requirement file, or noise in "
+        "the dataset's robot_poses)");
+  if (audit.global.is_too_large)
+    doubts.push_back("what is left over is more than the stated noise explains");
+  if (audit.held_out.inside < audit.held_out.fewest)
+    doubts.push_back(fmt::format(
+        "only {} of {} poses lie within the 95 % region that the others predict for them",
+        audit.held_out.inside,
+        audit.held_out.poses));
+  const bool is_used = std::all_of(estimate.poses.begin(),
+                                   estimate.poses.end(),
+                                   [](const PoseResult& pose) { return pose.weight == 1.0; });
+  if (!estimate.outliers.empty() && is_used)
+    doubts.push_back(fmt::format("{} that the others contradict {} used all the same",
+                                 estimate.outliers.size() == 1
+                                     ? std::string("a pose")
+                                     : fmt::format("{} poses", estimate.outliers.size()),
+                                 estimate.outliers.size() == 1 ? "was" : "were"));
+  return doubts;
+}
+
+}  // namespace
+
+std::string_view NameOf(Compliance compliance) {
+  switch (compliance) {
+    case Compliance::kPass:
+      return "PASS";
+    case Compliance::kFail:
+      return "FAIL";
+    case Compliance::kInconclusive:
+      return "INCONCLUSIVE";
+    case Compliance::kNotAsked:
+      break;
+  }
+  return "none";
+}
+
+std::vector<ErrorSource> SourcesOf(const Audit& audit, const NamedPoint& point) {
+  std::vector<ErrorSource> sources = audit.sources;
+  sources.push_back({point.name, SourceSite::kPoint, point.standard_deviation});
+  return sources;
+}
+
+Audit MakeAudit(AuditInput input) {
+  Audit audit;
+  audit.header = input.header;
+  audit.description = input.dataset.description;
+  audit.requirements = RequirementsOf(input);
+  audit.estimate = std::move(input.estimate);
+  audit.comparison = std::move(input.comparison);
+  audit.robot_is_stated = audit.requirements.robot.has_value();
+  if (audit.robot_is_stated) audit.sources.push_back(audit.requirements.robot->source);
+  for (const StatedSource& stated : audit.requirements.sources)
+    audit.sources.push_back(stated.source);
+  audit.workspace = MakeWorkspace(audit.requirements.workspace, input.observations);
+  audit.global = GlobalTestOf(audit.estimate);
+  audit.correlations = StrongCorrelations(audit.estimate);
+  audit.bodies = BodiesOf(input.dataset, audit.estimate, audit);
+  if (audit.estimate.IsTrustworthy()) {
+    audit.poses =
+        CheckPoses(input.observations, audit.estimate.mounts, input.levels, kAlpha, kPower);
+    audit.held_out = HeldOutTestOf(audit.poses);
+  }
+  audit.doubts = DoubtsOf(audit);
+  const std::vector<Place> places = GridOf(audit.workspace, input.dataset);
+  audit.places = places.size();
+  const std::vector<Place> poses = PosesOf(input.observations);
+  if (audit.estimate.IsTrustworthy() && !places.empty())
+    for (const NamedPoint& point : audit.requirements.points)
+      audit.points.push_back(ReportPoint(audit, point, places, input));
+  for (const Requirement& requirement : audit.requirements.requirements)
+    audit.decisions.push_back(Decide(
+        audit, requirement, requirement.over == Requirement::Places::kWorkspace ? places : poses));
+  audit.compliance = Together(audit.decisions);
+  if (input.earlier) audit.change = ChangeOf(*input.earlier, audit);
+  return audit;
+}
+
+}  // namespace hexcal

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "estimator/compare.h"
+#include "estimator/pose_check.h"
+#include "estimator/target_check.h"
+#include "report/accuracy_map.h"
+#include "report/earlier_result.h"
+#include "report/requirement.h"
+#include "report/result_json.h"
+#include "report/workspace.h"
+
+namespace hexcal {
+
+enum class Compliance { kNotAsked, kPass, kFail, kInconclusive };
+std::string_view NameOf(Compliance compliance);  // none, PASS, FAIL, INCONCLUSIVE
+
+// A row of the uncertainty budget of a point at a place; rms is the root of the trace, m.
+struct BudgetRow {
+  std::string name;
+  std::string origin;  // where its value is from
+  char type = 'B';     // of evaluation (JCGM 100)
+  double rms = 0.0;
+  double share = 0.0;  // of the variance
+  double degrees_of_freedom = 0.0;
+};
+
+// The error of a point at a place.
+struct PointAt {
+  Place place;
+  double rms = 0.0;
+  double length_95 = 0.0;  // not exceeded with 95 %, m
+};
+
+// A point of the tool, in the middle of the workspace and where it is worst in it.
+struct PointReport {
+  NamedPoint point;
+  PointAt centre, worst;
+  std::vector<BudgetRow> budget;     // where it is worst
+  std::optional<TargetCheck> check;  // there; nothing where the draws could not be made
+  AccuracyMap map;
+};
+
+// The decision on a requirement (JCGM 106, guarded acceptance).
+struct Decision {
+  Requirement requirement;
+  Compliance compliance = Compliance::kInconclusive;
+  double value = 0.0;  // the length that the error does not exceed, where it is worst, m
+  double guard = 0.0;  // twice the standard uncertainty of value, m
+  Place worst;
+  std::string reason;  // one sentence
+};
+
+// Markers of a body, each reading of which has this noise: what they are worth.
+struct BodyReport {
+  std::string name;
+  Eigen::Index markers = 0;
+  double sigma = 0.0;                  // of a coordinate, RMS over the axes, m
+  double fiducial = 0.0;               // FRE, m
+  std::vector<double> at_points = {};  // TRE at the named points; the tool alone
+};
+
+// Does what is left over agree with the noise that was stated?
+struct GlobalTest {
+  bool is_stated = false;  // else the noise was estimated from what is left over: nothing to test
+  double low = 0.0, high = 0.0;  // 95 % limits of chi-square
+  bool is_too_large = false, is_too_small = false;
+};
+
+// Poses predicted from the others.
+struct HeldOutTest {
+  double rms_position = 0.0, expected_position = 0.0;        // m
+  double rms_orientation = 0.0, expected_orientation = 0.0;  // rad
+  int inside = 0, poses = 0;                                 // within their 95 % region
+  int fewest = 0;  // so many at least with a probability of 99 %, were all well
+};
+
+struct Correlation {
+  int a = 0, b = 0;  // parameters
+  double value = 0.0;
+};
+
+// What has changed since an earlier calibration.
+struct Change {
+  EarlierResult earlier;
+  Vector12d difference = Vector12d::Zero();  // new [-] earlier, m and rad
+  Vector12d sigmas =
+      Vector12d::Zero();  // in standard deviations of the difference; NaN: not determined
+  double chi_square = 0.0, p_value = 0.0;  // of all 12
+  std::vector<double> at_points;           // how far the named points have moved at the centre, m
+};
+
+// All that a report of accuracy says. SI.
+struct Audit {
+  ResultHeader header;
+  std::string description;
+  Requirements requirements;
+  Workspace workspace;
+  std::size_t places = 0;  // of the workspace that were looked at
+  bool robot_is_stated = false;
+  Estimate estimate;
+  Comparison comparison;
+  GlobalTest global;
+  HeldOutTest held_out;
+  std::vector<PoseCheck> poses;
+  std::vector<Correlation> correlations;  // above 0.9
+  std::vector<PointReport> points;
+  std::vector<Decision> decisions;
+  std::vector<BodyReport> bodies;
+  std::optional<Change> change;
+  std::vector<ErrorSource> sources;  // with the points' own errors left out
+  std::vector<std::string> doubts;   // why nothing may pass
+  Compliance compliance = Compliance::kNotAsked;
+};
+
+struct AuditInput {
+  const Dataset& dataset;
+  const Observations& observations;
+  NoiseLevels levels;  // of poses, where the dataset states none
+  ResultHeader header;
+  Estimate estimate;
+  Comparison comparison;  // with its draws kept
+  std::optional<Requirements> requirements;
+  std::optional<EarlierResult> earlier;
+  std::uint64_t seed = 1;
+};
+
+Audit MakeAudit(AuditInput input);
+
+// The sources of error of a point: those of the audit and the point's own.
+std::vector<ErrorSource> SourcesOf(const Audit& audit, const NamedPoint& point);
+
+}  // namespace hexcal

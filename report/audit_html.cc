@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/audit_html.h"
+
+#include <fmt/format.h>
+
+#include "report/audit_sections.h"
+#include "report/html/page.h"
+#include "report/quantity.h"
+
+namespace hexcal {
+namespace {
+
+Tone ToneOf(Compliance compliance) {
+  if (compliance == Compliance::kPass) return Tone::kGood;
+  return compliance == Compliance::kFail ? Tone::kBad : Tone::kWarn;
+}
+
+void AddVerdict(const Audit& audit, HtmlPage* page) {
+  std::string sentence;
+  for (const Decision& decision : audit.decisions)
+    sentence += (sentence.empty() ? "" : " ") + decision.reason;
+  if (audit.decisions.empty())
+    sentence =
+        "No requirement was given (--requirement): nothing is decided, everything is measured.";
+  page->Verdict(ToneOf(audit.compliance), "verdict", NameOf(audit.compliance), sentence);
+  HtmlTable table = {{{"requirement"},
+                      {"verdict"},
+                      {"point"},
+                      {"probability", true},
+                      {"limit, mm", true},
+                      {"value, mm", true},
+                      {"guard band, mm", true},
+                      {"worst at"}},
+                     {}};
+  for (const Decision& d : audit.decisions) {
+    const bool is_known = d.value > 0.0;
+    table.rows.push_back({d.requirement.name,
+                          std::string(NameOf(d.compliance)),
+                          audit.requirements.points[d.requirement.point].name,
+                          ShareText(d.requirement.probability),
+                          fmt::format("{:.4g}", 1e3 * d.requirement.limit),
+                          is_known ? fmt::format("{:.4f}", 1e3 * d.value) : "–",
+                          is_known ? fmt::format("{:.4f}", 1e3 * d.guard) : "–",
+                          is_known ? WordsOf(d.worst) : "–"});
+  }
+  if (!table.rows.empty()) {
+    page->Table(table);
+    page->Note(
+        "Decision rule, guarded acceptance (JCGM 106:2012, 8.3): PASS where value and guard band "
+        "stay "
+        "within the limit and nothing below speaks against it; FAIL where the value less the guard "
+        "band is beyond the limit; else INCONCLUSIVE. Guard band: twice the standard uncertainty "
+        "of "
+        "the value.");
+  }
+  if (!audit.doubts.empty()) {
+    page->Heading("What keeps a requirement from passing");
+    page->List(audit.doubts);
+  }
+}
+
+void AddIdentification(const AuditIdentity& identity,
+                       const RunRecord& record,
+                       const Audit& audit,
+                       HtmlPage* page) {
+  page->Section("Identification and inputs");
+  HtmlTable table = {{{""}, {""}}, {}};
+  table.rows.push_back({"report", identity.id});
+  table.rows.push_back({"dataset", audit.header.dataset});
+  if (!audit.description.empty()) table.rows.push_back({"description", audit.description});
+  for (const auto& [key, value] : audit.requirements.identification)
+    table.rows.push_back({key, value});
+  table.rows.push_back({"run", record.started_utc});
+  table.rows.push_back({"poses measured", fmt::format("{}", audit.estimate.poses.size())});
+  page->Table(table);
+  HtmlTable files = {{{"input"}, {"SHA-256"}}, {}};
+  for (const HashedFile& file : identity.inputs) files.rows.push_back({file.path, file.sha256});
+  page->Table(files);
+  page->Note(
+      "The report's number is the SHA-256 of the inputs' hashes, the settings and result.json. "
+      "What "
+      "the dataset and the requirement file state is taken as it stands.");
+}
+
+void AddMeasurand(const Audit& audit, HtmlPage* page) {
+  page->Section("Measurand and frames");
+  page->Paragraph(
+      "Measurand: the position of a named point of the tool in frame W where the robot reports a "
+      "pose "
+      "T_A^B. Its error is predicted minus true position; what is judged is the length of that "
+      "error.");
+  page->List(
+      {"M: the tracker.",
+       "W, the world: the base markers' body (of measured poses: the frame they are given in).",
+       "B: the base of the hexapod. A: its mobile platform. T: the tool markers' body.",
+       "T_T^W = T_B^W T_A^B T_T^A (Eq. 1): world_from_tool = world_from_base * "
+       "base_from_platform * platform_from_tool. T_X^Y maps points of X into Y.",
+       "Rotations: Tra(x, y, z) Rot(x, rx) Rot(y, ry) Rot(z, rz) (Eq. 2); quaternions are scalar "
+       "first; m and rad in files, mm and mrad here.",
+       "A small motion acts on the right of a transform, translation first, in m and rad."});
+  HtmlTable points = {{{"point of the tool, frame T"},
+                       {"x, mm", true},
+                       {"y, mm", true},
+                       {"z, mm", true},
+                       {"standard uncertainty, mm", true}},
+                      {}};
+  for (const NamedPoint& point : audit.requirements.points)
+    points.rows.push_back({point.name,
+                           fmt::format("{:.4f}", 1e3 * point.p_in_tool.x()),
+                           fmt::format("{:.4f}", 1e3 * point.p_in_tool.y()),
+                           fmt::format("{:.4f}", 1e3 * point.p_in_tool.z()),
+                           fmt::format("{:.4f}", 1e3 * point.standard_deviation)});
+  page->Table(points);
+}
+
+void AddModel(const Audit& audit, HtmlPage* page) {
+  page->Section("Model and assumptions");
+  const Estimate& estimate = audit.estimate;
+  page->List(
+      {"measured = T_B^W T_A^B T_T^A with noise; estimated are 12 numbers, a small motion of six "
+       "for "
+       "T_B^W and for T_T^A each. Nothing else of the machine is corrected.",
+       fmt::format(
+           "Solver: {}, {}.",
+           audit.header.solver,
+           audit.header.residual == "marker" ? "by the readings of all markers" : "by poses"),
+       fmt::format("Noise of a measured pose: {} and {} a coordinate, {}.",
+                   SizeText(estimate.noise.position, "m"),
+                   SizeText(estimate.noise.orientation, "rad"),
+                   estimate.noise.estimated ? "estimated from what is left over (type A)"
+                                            : "as the dataset states it (type B)"),
+       "Noise is independent from pose to pose and has mean zero. What poses have in common beyond "
+       "base and tool (a bent platform, a tracker out of scale) is not in the uncertainty; the "
+       "tests "
+       "below may show it, and hexcal discover looks for it.",
+       audit.robot_is_stated
+           ? "The robot's own error is in the budget, as stated."
+           : "Nothing is stated of the robot's own error; it is left out, and nothing passes."});
+}
+
+void AddReproduce(const RunRecord& record, const Audit& audit, HtmlPage* page) {
+  if (!audit.estimate.warnings.empty()) {
+    page->Section("Warnings");
+    page->List(audit.estimate.warnings);
+  }
+  page->Section("How to reproduce");
+  page->Paragraph(
+      "The same build, input and seed give the same result.json, model.yaml and audit.json, which "
+      "lie "
+      "beside this report and have every number of it.");
+  HtmlTable settings = {{{"setting"}, {"value"}}, {}};
+  for (const auto& [name, value] : record.settings)
+    if (!value.empty()) settings.rows.push_back({name, value});
+  page->Table(settings);
+  page->Code(record.version);
+}
+
+void AddGlossary(HtmlPage* page) {
+  page->Section("Words");
+  page->List(
+      {"Standard uncertainty: one standard deviation. Expanded uncertainty: the half width that "
+       "holds "
+       "the truth with 95 %. Words are those of JCGM 200:2012 and JCGM 100:2008.",
+       "Target registration error: the error of a point other than those that were measured.",
+       "Correlation: of the errors of two parameters, from -1 to 1.",
+       "Redundancy of a pose: the part of an error of its measurement that shows in its residual.",
+       "Documents are named for what was done as they say; this report claims compliance with "
+       "none."});
+}
+
+}  // namespace
+
+std::string AuditHtml(const AuditIdentity& identity, const RunRecord& record, const Audit& audit) {
+  HtmlPage page(
+      "audit",
+      "Accuracy audit: " + audit.header.dataset,
+      fmt::format("{} poses · how far a point of the tool may be from where it is predicted",
+                  audit.estimate.poses.size()));
+  AddVerdict(audit, &page);
+  AddIdentification(identity, record, audit, &page);
+  AddMeasurand(audit, &page);
+  AddModel(audit, &page);
+  AddResults(audit, &page);
+  AddLinearizedAgainstNonlinear(audit, &page);
+  AddGoodnessOfFit(audit, &page);
+  AddBudget(audit, &page);
+  AddValidation(audit, &page);
+  AddAccuracy(audit, &page);
+  AddChange(audit, &page);
+  AddReproduce(record, audit, &page);
+  AddGlossary(&page);
+  return page.Html();
+}
+
+}  // namespace hexcal

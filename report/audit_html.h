@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "report/audit.h"
+#include "report/audit_json.h"
+#include "report/run_record.h"
+
+namespace hexcal {
+
+// report.html of an audit: one file that opens offline (report/html/page.h). It has the time of the
+// run.
+std::string AuditHtml(const AuditIdentity& identity, const RunRecord& record, const Audit& audit);
+
+}  // namespace hexcal

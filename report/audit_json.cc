@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/audit_json.h"
+
+#include <cmath>
+
+#include "geometry/rotation_angles.h"
+#include "report/json_parts.h"
+#include "report/json_text.h"
+
+namespace hexcal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json PlaceObject(const Place& place) {
+  Json object = {{"pose_vector", JsonList(VectorFromPose(place.base_from_platform))}};
+  if (!place.label.empty()) object["pose"] = place.label;
+  return object;
+}
+
+Json Decisions(const Audit& audit) {
+  Json list = Json::array();
+  for (const Decision& d : audit.decisions)
+    list.push_back(
+        {{"name", d.requirement.name},
+         {"verdict", std::string(NameOf(d.compliance))},
+         {"point", audit.requirements.points[d.requirement.point].name},
+         {"over", d.requirement.over == Requirement::Places::kPoses ? "poses" : "workspace"},
+         {"limit", d.requirement.limit},
+         {"probability", d.requirement.probability},
+         {"value", d.value > 0.0 ? Json(d.value) : Json()},
+         {"guard_band", d.value > 0.0 ? Json(d.guard) : Json()},
+         {"worst", d.value > 0.0 ? PlaceObject(d.worst) : Json()},
+         {"reason", d.reason}});
+  return list;
+}
+
+Json AtObject(const PointAt& at) {
+  Json object = PlaceObject(at.place);
+  object["rms"] = at.rms;
+  object["length_95"] = at.length_95;
+  return object;
+}
+
+Json CheckObject(const TargetCheck& check) {
+  return {{"draws", check.draws},
+          {"rms", check.rms},
+          {"repeated_rms", check.repeated_rms},
+          {"length_95", check.quantile},
+          {"repeated_length_95", check.repeated_quantile},
+          {"standard_error", check.standard_error},
+          {"tolerance", check.tolerance},
+          {"agrees", check.agrees}};
+}
+
+Json Points(const Audit& audit) {
+  Json list = Json::array();
+  for (const PointReport& report : audit.points) {
+    Json budget = Json::array();
+    for (const BudgetRow& row : report.budget)
+      budget.push_back({{"source", row.name},
+                        {"from", row.origin},
+                        {"type", std::string(1, row.type)},
+                        {"rms", row.rms},
+                        {"share", row.share},
+                        {"degrees_of_freedom", Number(row.degrees_of_freedom)}});
+    list.push_back({{"name", report.point.name},
+                    {"xyz", JsonList(report.point.p_in_tool)},
+                    {"standard_deviation", report.point.standard_deviation},
+                    {"centre", AtObject(report.centre)},
+                    {"worst", AtObject(report.worst)},
+                    {"budget", budget},
+                    {"monte_carlo", report.check ? CheckObject(*report.check) : Json()}});
+  }
+  return list;
+}
+
+Json Poses(const Audit& audit) {
+  Json list = Json::array();
+  for (const PoseCheck& pose : audit.poses)
+    list.push_back({{"pose", pose.label},
+                    {"held_out", JsonList(pose.held_out)},
+                    {"squared_sigmas", pose.squared},
+                    {"smallest_position", pose.smallest_position},
+                    {"smallest_orientation", pose.smallest_orientation},
+                    {"redundancy", pose.redundancy}});
+  return list;
+}
+
+Json Methods(const Audit& audit) {
+  Json list = Json::array();
+  for (const MethodResult& method : audit.comparison.methods) {
+    Json sigmas = Json::array();
+    for (const double s : method.sigmas) sigmas.push_back(Number(s));
+    list.push_back(
+        {{"name", std::string(InfoOf(method.method).name)},
+         {"converged", method.fit.converged},
+         {"difference", sigmas},
+         {"held_out_position", method.held_out ? Json(method.held_out->position) : Json()},
+         {"held_out_orientation", method.held_out ? Json(method.held_out->orientation) : Json()}});
+  }
+  return list;
+}
+
+Json ChangeObject(const Audit& audit) {
+  const Change& change = *audit.change;
+  Json sigmas = Json::array(), points = Json::array();
+  for (const double s : change.sigmas) sigmas.push_back(Number(s));
+  for (std::size_t i = 0; i < change.at_points.size(); ++i)
+    points.push_back(
+        {{"point", audit.requirements.points[i].name}, {"moved", change.at_points[i]}});
+  return {{"dataset", change.earlier.dataset},
+          {"difference", JsonList(change.difference)},
+          {"sigmas", sigmas},
+          {"chi_square", Number(change.chi_square)},
+          {"p_value", Number(change.p_value)},
+          {"points", points}};
+}
+
+Json Bodies(const Audit& audit) {
+  Json list = Json::array();
+  for (const BodyReport& body : audit.bodies)
+    list.push_back({{"body", body.name},
+                    {"markers", body.markers},
+                    {"sigma", body.sigma},
+                    {"fiducial_registration_error", body.fiducial},
+                    {"target_registration_error", body.at_points}});
+  return list;
+}
+
+Json AuditObject(const AuditIdentity& identity, const Audit& audit) {
+  Json json;
+  json["format"] = "hexcal/audit/1";
+  json["dataset"] = audit.header.dataset;
+  json["id"] = identity.id;
+  json["verdict"] = std::string(NameOf(audit.compliance));
+  json["requirements"] = Decisions(audit);
+  json["doubts"] = audit.doubts;
+  json["identification"] = Json::object();
+  for (const auto& [key, value] : audit.requirements.identification)
+    json["identification"][key] = value;
+  json["inputs"] = Json::array();
+  for (const HashedFile& file : identity.inputs)
+    json["inputs"].push_back({{"file", file.path}, {"sha256", file.sha256}});
+  Json box = Json::array();
+  for (const auto& range : audit.workspace.box) box.push_back({range[0], range[1]});
+  json["workspace"] = {{"ranges", box},
+                       {"stated", audit.workspace.is_stated},
+                       {"measured", audit.workspace.is_measured},
+                       {"places", audit.places}};
+  json["points"] = Points(audit);
+  json["strong_correlations"] = Json::array();
+  for (const Correlation& c : audit.correlations)
+    json["strong_correlations"].push_back({{"a", std::string(kParameters[c.a].name)},
+                                           {"b", std::string(kParameters[c.b].name)},
+                                           {"value", c.value}});
+  json["global_test"] = {{"noise_is_stated", audit.global.is_stated},
+                         {"chi_square", audit.estimate.chi_square},
+                         {"degrees_of_freedom", audit.estimate.degrees_of_freedom},
+                         {"low", audit.global.low},
+                         {"high", audit.global.high},
+                         {"too_large", audit.global.is_too_large},
+                         {"too_small", audit.global.is_too_small}};
+  const HeldOutTest& held = audit.held_out;
+  json["held_out"] = {{"rms_position", held.rms_position},
+                      {"expected_position", held.expected_position},
+                      {"rms_orientation", held.rms_orientation},
+                      {"expected_orientation", held.expected_orientation},
+                      {"inside_95", held.inside},
+                      {"poses", held.poses},
+                      {"fewest_inside", held.fewest}};
+  json["methods"] = Methods(audit);
+  const PropagationCheck& propagation = audit.comparison.propagation;
+  json["propagation"] = {{"done", propagation.done},
+                         {"why_not", propagation.why_not},
+                         {"draws", propagation.draws},
+                         {"stable", propagation.stable},
+                         {"validated", propagation.validated}};
+  json["bodies"] = Bodies(audit);
+  json["poses"] = Poses(audit);
+  json["change"] = audit.change ? ChangeObject(audit) : Json();
+  json["warnings"] = audit.estimate.warnings;
+  return json;
+}
+
+}  // namespace
+
+std::string AuditJson(const AuditIdentity& identity, const Audit& audit) {
+  return JsonText(AuditObject(identity, audit));
+}
+
+std::string AuditJsonLine(const AuditIdentity& identity, const Audit& audit) {
+  return JsonLine(AuditObject(identity, audit));
+}
+
+}  // namespace hexcal

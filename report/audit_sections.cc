@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/audit_sections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/rotation_angles.h"
+#include "report/accuracy_charts.h"
+#include "report/estimate_charts.h"
+#include "report/quantity.h"
+#include "report/result_table.h"
+
+namespace hexcal {
+namespace {
+
+constexpr const char* kNumbers[6] = {"x, mm", "y, mm", "z, mm", "rx, mrad", "ry, mrad", "rz, mrad"};
+
+// Mounts as the six numbers of Eq. (2), each with one standard deviation.
+HtmlTable MountTable(const Audit& audit, bool is_base) {
+  const Estimate& estimate = audit.estimate;
+  const Pose3d& pose =
+      is_base ? estimate.mounts.world_from_base : estimate.mounts.platform_from_tool;
+  const int first = is_base ? 0 : 6;
+  const Vector6d values = VectorFromPose(pose);
+  const Vector6d sigmas = PoseVectorSigma(pose, estimate.covariance.block<6, 6>(first, first));
+  HtmlTable table = {{{""},
+                      {"value of Eq. (2)", true},
+                      {"its standard uncertainty", true},
+                      {"along own axis: standard", true},
+                      {"expanded, 95 %", true},
+                      {"degrees of freedom", true}},
+                     {}};
+  for (int i = 0; i < 6; ++i) {
+    const int k = first + i;
+    const bool is_known = estimate.observability.determined[k];
+    const double dof = estimate.intervals.degrees_of_freedom[k];
+    const auto number = [&](double value) {
+      return is_known && std::isfinite(value) ? fmt::format("{:.4f}", 1e3 * value)
+                                              : "not determined";
+    };
+    table.rows.push_back({kNumbers[i],
+                          fmt::format("{:.4f}", 1e3 * values[i]),
+                          number(sigmas[i]),
+                          number(std::sqrt(estimate.covariance(k, k))),
+                          number(estimate.intervals.half_width[k]),
+                          std::isfinite(dof) ? fmt::format("{:.0f}", dof) : "∞"});
+  }
+  return table;
+}
+
+std::string QuaternionText(const Pose3d& pose) {
+  const Eigen::Quaterniond& q = pose.rotation;
+  return fmt::format(
+      "quaternion (w, x, y, z): {:.9f}, {:.9f}, {:.9f}, {:.9f}", q.w(), q.x(), q.y(), q.z());
+}
+
+void AddOutliers(const Audit& audit, HtmlPage* page) {
+  page->Heading("Outliers");
+  const Estimate& estimate = audit.estimate;
+  if (estimate.outliers.empty())
+    page->Paragraph("No pose contradicts the others (at 1 % for all poses together).");
+  HtmlTable table = {{{"pose"}, {"why"}, {"p", true}, {"used"}}, {}};
+  for (const Outlier& outlier : estimate.outliers) {
+    const bool is_used = estimate.poses[outlier.index].weight > 0.0;
+    table.rows.push_back({outlier.label,
+                          outlier.reason,
+                          ProbabilityText(outlier.p_value),
+                          is_used ? "yes" : "left out"});
+  }
+  if (!table.rows.empty()) page->Table(table);
+  if (!audit.poses.empty()) page->Figure(SmallestChart(audit.poses));
+}
+
+HtmlTable BodyTable(const Audit& audit) {
+  HtmlTable table = {{{"body"},
+                      {"markers", true},
+                      {"noise of a reading, mm", true},
+                      {"misfit of the markers that it makes (FRE), mm", true}},
+                     {}};
+  for (const NamedPoint& point : audit.requirements.points)
+    table.columns.push_back({fmt::format("error at {} (TRE), mm", point.name), true});
+  for (const BodyReport& body : audit.bodies) {
+    std::vector<std::string> row = {body.name,
+                                    fmt::format("{}", body.markers),
+                                    fmt::format("{:.4f}", 1e3 * body.sigma),
+                                    fmt::format("{:.4f}", 1e3 * body.fiducial)};
+    for (std::size_t i = 0; i < audit.requirements.points.size(); ++i)
+      row.push_back(body.at_points.empty() ? "" : fmt::format("{:.4f}", 1e3 * body.at_points[i]));
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+}  // namespace
+
+void AddResults(const Audit& audit, HtmlPage* page) {
+  page->Section("Results");
+  page->Heading("Base in world, T_B^W");
+  page->Table(MountTable(audit, true));
+  page->Note(QuaternionText(audit.estimate.mounts.world_from_base));
+  page->Heading("Tool on platform, T_T^A");
+  page->Table(MountTable(audit, false));
+  page->Note(QuaternionText(audit.estimate.mounts.platform_from_tool));
+  page->Note(
+      "Values and the first uncertainty are of the six numbers of Eq. (2). The others are of a "
+      "small motion along and about the mount's own axes, as in the covariance of result.json. "
+      "Expanded: the truth lies within it with 95 %, each number by itself (Student's t).");
+  page->Figure(CorrelationChart(audit.estimate));
+  std::vector<std::string> strong;
+  for (const Correlation& c : audit.correlations)
+    strong.push_back(
+        fmt::format("{} and {}: {:.3f}", kParameters[c.a].name, kParameters[c.b].name, c.value));
+  page->Heading("Strong correlations and weak directions");
+  if (strong.empty())
+    page->Paragraph("No two parameters are correlated by more than 0.9.");
+  else
+    page->List(strong);
+  const Observability& observability = audit.estimate.observability;
+  if (observability.weak_directions.empty())
+    page->Paragraph(fmt::format(
+        "The poses determine all 12 parameters; condition number of the scaled Jacobian {:.3g}.",
+        observability.condition_number));
+  else
+    page->Paragraph("The poses do not determine:");
+  page->List(observability.weak_directions);
+}
+
+void AddLinearizedAgainstNonlinear(const Audit& audit, HtmlPage* page) {
+  page->Section("Linearized against nonlinear");
+  HtmlTable table = {{{"method"},
+                      {"largest difference, standard deviations", true},
+                      {"held out, mm", true},
+                      {"held out, mrad", true},
+                      {"converged"}},
+                     {}};
+  for (const MethodResult& method : audit.comparison.methods) {
+    double largest = 0.0;
+    for (const double s : method.sigmas)
+      if (std::isfinite(s)) largest = std::max(largest, std::abs(s));
+    table.rows.push_back(
+        {std::string(InfoOf(method.method).title),
+         fmt::format("{:.3g}", largest),
+         method.held_out ? fmt::format("{:.4f}", 1e3 * method.held_out->position) : "",
+         method.held_out ? fmt::format("{:.4f}", 1e3 * method.held_out->orientation) : "",
+         method.fit.converged ? "yes" : "no"});
+  }
+  page->Table(table);
+  page->Note(
+      "Differences are from the nonlinear solution by poses, the largest of the 12. Held out: RMS "
+      "error of poses that the method has not seen, with the noise of their own measurement in "
+      "it.");
+  std::vector<Chart> arrivals;
+  for (const MethodResult& method : audit.comparison.methods)
+    if (method.method == Method::kPaper || method.method == Method::kNonlinear)
+      arrivals.push_back(ConvergenceChart(
+          method.fit.iterations,
+          method.method == Method::kPaper ? "paper's iteration" : "nonlinear solver"));
+  page->Figures(arrivals);
+  page->Note(
+      "The paper's iteration starts at the dataset's first guess, or at no motion; the nonlinear "
+      "solver at the best closed form.");
+  const PropagationCheck& propagation = audit.comparison.propagation;
+  page->Heading("May the covariance of first order be used?");
+  if (!propagation.done) {
+    page->Paragraph("Not checked: " + propagation.why_not + ".");
+    return;
+  }
+  page->Paragraph(
+      fmt::format("The measurement was repeated {} times with the noise of every pose and "
+                  "calibrated each time. "
+                  "By the criterion of JCGM 101:2008, clause 8, with two digits of the standard "
+                  "uncertainty, the "
+                  "95 % intervals of first-order propagation are {}{}.",
+                  propagation.draws,
+                  propagation.validated ? "validated for all 12 parameters"
+                                        : "not validated for every parameter",
+                  propagation.stable ? "" : " (the repetitions were too few to be sure of that)"));
+  HtmlTable checks = {{{"point, where it is worst"},
+                       {"first order, mm", true},
+                       {"by repetition, mm", true},
+                       {"standard error, mm", true},
+                       {"agree"}},
+                      {}};
+  for (const PointReport& report : audit.points)
+    if (report.check)
+      checks.rows.push_back({report.point.name,
+                             fmt::format("{:.5f}", 1e3 * report.check->quantile),
+                             fmt::format("{:.5f}", 1e3 * report.check->repeated_quantile),
+                             fmt::format("{:.5f}", 1e3 * report.check->standard_error),
+                             report.check->agrees ? "yes" : "no"});
+  if (!checks.rows.empty()) page->Table(checks);
+  page->Note(
+      "The length that the error of the point does not exceed with 95 %; noise counts as known.");
+}
+
+void AddGoodnessOfFit(const Audit& audit, HtmlPage* page) {
+  page->Section("Goodness of fit");
+  const Estimate& estimate = audit.estimate;
+  page->Paragraph(fmt::format(
+      "Chi-square of what is left over: {:.5g} with {} degrees of freedom (noise scale, or Birge "
+      "ratio, {:.3f}). {}",
+      estimate.chi_square,
+      estimate.degrees_of_freedom,
+      estimate.noise_scale,
+      !audit.global.is_stated
+          ? std::string("The noise was estimated from it, so that there is nothing to test.")
+          : fmt::format(
+                "Expected with 95 %: {:.5g} to {:.5g}. {}",
+                audit.global.low,
+                audit.global.high,
+                audit.global.is_too_large
+                    ? "There is more than the stated noise explains: the noise is larger, or "
+                      "the model misses something (hexcal discover looks for it)."
+                : audit.global.is_too_small
+                    ? "There is less: the stated noise is too large, and so are the "
+                      "uncertainties."
+                    : "The residuals agree with the stated noise.")));
+  page->Paragraph(fmt::format("RMS of what is left over: {} and {} (RMSPE, RMSOE).",
+                              SizeText(estimate.rmspe, "m"),
+                              SizeText(estimate.rmsoe, "rad")));
+  page->Note(
+      "A good fit alone says little about the error of a point of the tool: that is in the "
+      "sections "
+      "on the budget and on the workspace.");
+  page->Figures(LeftOverCharts(estimate));
+  page->Figure(HistogramChart(estimate));
+  AddOutliers(audit, page);
+  if (audit.bodies.empty()) return;
+  page->Heading("What one reading of the markers is worth");
+  page->Table(BodyTable(audit));
+  page->Note(
+      "RMS, for markers that are read with the same noise along all axes (Fitzpatrick, West and "
+      "Maurer 1998). The misfit of the markers does not tell the error elsewhere.");
+}
+
+void AddBudget(const Audit& audit, HtmlPage* page) {
+  page->Section("Uncertainty budget");
+  page->Paragraph(
+      "The error of a point is made of the calibration's, carried to the point by J Σ Jᵀ, and of "
+      "those that the machine has wherever it is used. Figures are RMS lengths where the error is "
+      "worst in the workspace.");
+  if (!audit.robot_is_stated)
+    page->Paragraph(
+        "Nothing is stated of the robot's own error; it is NOT in this budget, and no requirement "
+        "passes without it.");
+  std::vector<Chart> charts;
+  for (const PointReport& report : audit.points) {
+    page->Heading(report.point.name);
+    HtmlTable table = {{{"source"},
+                        {"value from"},
+                        {"type"},
+                        {"RMS, mm", true},
+                        {"of the variance", true},
+                        {"degrees of freedom", true}},
+                       {}};
+    for (const BudgetRow& row : report.budget)
+      table.rows.push_back({row.name,
+                            row.origin,
+                            std::string(1, row.type),
+                            fmt::format("{:.4f}", 1e3 * row.rms),
+                            ShareText(row.share),
+                            std::isfinite(row.degrees_of_freedom)
+                                ? fmt::format("{:.0f}", row.degrees_of_freedom)
+                                : "∞"});
+    table.rows.push_back(
+        {"combined", "", "", fmt::format("{:.4f}", 1e3 * report.worst.rms), "100 %", ""});
+    table.chosen_row = static_cast<int>(table.rows.size()) - 1;
+    page->Table(table);
+    charts.push_back(BudgetChart(report));
+  }
+  page->Figures(charts);
+  page->Note(
+      "Type A: evaluated by statistics of observations; type B: otherwise (JCGM 100:2008). "
+      "Calibration "
+      "counts as type A although stated noise enters its weights.");
+}
+
+void AddValidation(const Audit& audit, HtmlPage* page) {
+  page->Section("Validation on held-out poses");
+  const HeldOutTest& held = audit.held_out;
+  if (held.poses == 0) return page->Paragraph("There is nothing to validate with.");
+  page->Paragraph(
+      fmt::format("Each pose was predicted from all the others: {} RMS where noise and prediction "
+                  "explain {}, and "
+                  "{} where they explain {}. {} of {} poses lie within the 95 % region of their "
+                  "prediction; of a "
+                  "model that lacks nothing it would be {} or more in 99 of 100 cases.",
+                  SizeText(held.rms_position, "m"),
+                  SizeText(held.expected_position, "m"),
+                  SizeText(held.rms_orientation, "rad"),
+                  SizeText(held.expected_orientation, "rad"),
+                  held.inside,
+                  held.poses,
+                  held.fewest));
+  page->Figure(HeldOutChart(audit.poses));
+}
+
+void AddAccuracy(const Audit& audit, HtmlPage* page) {
+  page->Section("Accuracy over the workspace");
+  HtmlTable box = {{{"T_A^B, Eq. (2)"}, {"from", true}, {"to", true}}, {}};
+  for (int i = 0; i < 6; ++i)
+    box.rows.push_back({kNumbers[i],
+                        fmt::format("{:.4g}", 1e3 * audit.workspace.box[i][0]),
+                        fmt::format("{:.4g}", 1e3 * audit.workspace.box[i][1])});
+  page->Table(box);
+  page->Note(fmt::format(
+      "{} {} places of a grid over it were looked at{}.",
+      audit.workspace.is_stated ? "As the requirement file has it." : "What the poses span.",
+      audit.places,
+      audit.workspace.is_measured
+          ? ""
+          : "; it reaches beyond the poses that were measured, where nothing "
+            "but the model speaks"));
+  HtmlTable table = {
+      {{"point"}, {"where"}, {"RMS, mm", true}, {"not exceeded with 95 %, mm", true}}, {}};
+  for (const PointReport& report : audit.points)
+    for (const auto& [name, at] :
+         {std::pair{"centre", &report.centre}, std::pair{"worst", &report.worst}})
+      table.rows.push_back({report.point.name,
+                            fmt::format("{}: {}", name, WordsOf(at->place)),
+                            fmt::format("{:.4f}", 1e3 * at->rms),
+                            fmt::format("{:.4f}", 1e3 * at->length_95)});
+  page->Table(table);
+  for (const PointReport& report : audit.points) page->Figure(MapChart(report));
+}
+
+void AddChange(const Audit& audit, HtmlPage* page) {
+  if (!audit.change) return;
+  const Change& change = *audit.change;
+  page->Section("Change since an earlier calibration");
+  page->Paragraph(fmt::format(
+      "Earlier: {} (dataset {}). {}",
+      change.earlier.path,
+      change.earlier.dataset,
+      std::isfinite(change.chi_square)
+          ? fmt::format(
+                "All 12 together: chi-square {:.4g}, of 12 degrees of freedom; by chance it is as "
+                "large with a probability of {}.",
+                change.chi_square,
+                ProbabilityText(change.p_value))
+          : "Not all 12 parameters are determined in both."));
+  HtmlTable table = {{{"parameter"}, {"change", true}, {"in its standard uncertainties", true}},
+                     {}};
+  for (int i = 0; i < 12; ++i)
+    table.rows.push_back(
+        {std::string(kParameters[i].name),
+         fmt::format(
+             "{:.4f} {}", 1e3 * change.difference[i], kParameters[i].is_angle ? "mrad" : "mm"),
+         std::isfinite(change.sigmas[i]) ? fmt::format("{:.2f}", change.sigmas[i]) : "–"});
+  page->Table(table);
+  HtmlTable points = {{{"point, at the centre of the workspace"}, {"has moved, mm", true}}, {}};
+  for (std::size_t i = 0; i < change.at_points.size(); ++i)
+    points.rows.push_back(
+        {audit.requirements.points[i].name, fmt::format("{:.4f}", 1e3 * change.at_points[i])});
+  page->Table(points);
+  page->Note("The two calibrations count as independent: no reading is in both.");
+}
+
+}  // namespace hexcal

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "report/audit.h"
+#include "report/html/page.h"
+
+namespace hexcal {
+
+// The sections of an audit's report that are about numbers.
+void AddResults(const Audit& audit, HtmlPage* page);
+void AddLinearizedAgainstNonlinear(const Audit& audit, HtmlPage* page);
+void AddGoodnessOfFit(const Audit& audit, HtmlPage* page);
+void AddBudget(const Audit& audit, HtmlPage* page);
+void AddValidation(const Audit& audit, HtmlPage* page);
+void AddAccuracy(const Audit& audit, HtmlPage* page);
+void AddChange(const Audit& audit, HtmlPage* page);
+
+}  // namespace hexcal

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/audit_table.h"
+
+#include <fmt/format.h>
+
+#include "report/quantity.h"
+
+namespace hexcal {
+namespace {
+
+std::string PointLines(const PointReport& report) {
+  std::string text =
+      fmt::format("  {}: the error is not longer than, with 95 %\n", report.point.name);
+  text += fmt::format("    {:<15}{} (RMS {})\n",
+                      "at the centre",
+                      SizeText(report.centre.length_95, "m"),
+                      SizeText(report.centre.rms, "m"));
+  text += fmt::format("    {:<15}{} (RMS {}), at {}\n",
+                      "at worst",
+                      SizeText(report.worst.length_95, "m"),
+                      SizeText(report.worst.rms, "m"),
+                      WordsOf(report.worst.place));
+  for (const BudgetRow& row : report.budget)
+    text += fmt::format(
+        "    {:<28}{:>10} RMS {:>9}\n", row.name, SizeText(row.rms, "m"), ShareText(row.share));
+  if (report.check)
+    text += fmt::format("    by {} repetitions {} ({} by first order, noise as known): {}\n",
+                        report.check->draws,
+                        SizeText(report.check->repeated_quantile, "m"),
+                        SizeText(report.check->quantile, "m"),
+                        report.check->agrees ? "they agree" : "they do NOT agree");
+  return text;
+}
+
+}  // namespace
+
+std::string AuditTable(const Audit& audit) {
+  const Estimate& estimate = audit.estimate;
+  std::string text = fmt::format("{}: {} poses, verdict {}\n\n",
+                                 audit.header.dataset,
+                                 estimate.poses.size(),
+                                 NameOf(audit.compliance));
+  if (audit.decisions.empty()) text += "  no requirement was given (--requirement)\n\n";
+  for (const Decision& decision : audit.decisions)
+    text += fmt::format("  {:<13}{}: {}\n\n",
+                        NameOf(decision.compliance),
+                        decision.requirement.name,
+                        decision.reason);
+  for (const PointReport& report : audit.points) text += PointLines(report) + "\n";
+  text += fmt::format("  chi-square     {:.5g} with {} degrees of freedom{}\n",
+                      estimate.chi_square,
+                      estimate.degrees_of_freedom,
+                      !audit.global.is_stated     ? " (noise estimated: nothing to test)"
+                      : audit.global.is_too_large ? ": more than the stated noise explains"
+                      : audit.global.is_too_small ? ": less than the stated noise"
+                                                  : ": as the stated noise explains");
+  if (audit.held_out.poses > 0)
+    text +=
+        fmt::format("  held out       {} of {} poses in their 95 % region; {} RMS, {} expected\n",
+                    audit.held_out.inside,
+                    audit.held_out.poses,
+                    SizeText(audit.held_out.rms_position, "m"),
+                    SizeText(audit.held_out.expected_position, "m"));
+  if (audit.change)
+    text += fmt::format("  changed        chi-square {:.4g} of 12 since {} (p {})\n",
+                        audit.change->chi_square,
+                        audit.change->earlier.path,
+                        ProbabilityText(audit.change->p_value));
+  for (const std::string& doubt : audit.doubts) text += fmt::format("  doubt          {}\n", doubt);
+  return text;
+}
+
+}  // namespace hexcal

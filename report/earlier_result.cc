@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/earlier_result.h"
+
+#include <fmt/format.h>
+
+#include "config/strict_yaml.h"
+
+namespace hexcal {
+namespace {
+
+// JSON is read as the YAML that it is, for the line numbers.
+const YamlNode& Key(const YamlNode& map, std::string_view key) {
+  if (map.kind != YamlNode::Kind::kMap)
+    throw InputError(map.where, Describe(map), "a result.json of hexcal");
+  for (const auto& [name, value] : map.entries)
+    if (name.scalar == key) return value;
+  throw InputError(map.where, fmt::format("no key '{}'", key), "a result.json of hexcal");
+}
+
+Pose3d ReadMount(const YamlNode& node) {
+  const auto xyz = ReadNumbers(Key(node, "xyz"), 3, "xyz, three numbers");
+  const auto q = ReadNumbers(Key(node, "quaternion"), 4, "a quaternion, four numbers");
+  const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
+  if (!(std::abs(rotation.norm() - 1.0) < 1e-3))
+    throw InputError(Key(node, "quaternion").where, "a quaternion of another length", "length one");
+  return {Eigen::Vector3d(xyz[0], xyz[1], xyz[2]), rotation.normalized()};
+}
+
+}  // namespace
+
+EarlierResult ReadEarlierResult(const std::string& path) {
+  constexpr std::string_view kFormat = "hexcal/result/1";
+  const YamlNode root = ParseYamlFile(path);
+  const YamlNode& format = Key(root, "format");
+  if (ReadText(format, kFormat) != kFormat)
+    throw InputError(format.where, Describe(format), fmt::format("'{}'", kFormat));
+  EarlierResult result;
+  result.path = path;
+  result.dataset = ReadText(Key(root, "dataset"));
+  result.mounts = {ReadMount(Key(root, "world_from_base")),
+                   ReadMount(Key(root, "platform_from_tool"))};
+  const YamlNode& covariance = Key(root, "covariance");
+  const auto& rows = ReadSequence(covariance, "12 rows of 12 numbers");
+  if (rows.size() != 12) throw InputError(covariance.where, Describe(covariance), "12 rows");
+  for (int i = 0; i < 12; ++i) {
+    const auto& row = ReadSequence(rows[i], "12 numbers");
+    if (row.size() != 12) throw InputError(rows[i].where, Describe(rows[i]), "12 numbers");
+    result.determined[i] = row[i].kind != YamlNode::Kind::kNull;
+    for (int j = 0; j < 12; ++j)
+      if (row[j].kind != YamlNode::Kind::kNull) result.covariance(i, j) = ReadNumber(row[j]);
+  }
+  return result;
+}
+
+}  // namespace hexcal

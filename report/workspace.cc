@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/workspace.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "geometry/rotation_angles.h"
+#include "model/hexapod.h"
+
+namespace hexcal {
+namespace {
+
+constexpr int kLevels = 3;
+// The part of a range by which the calibration's poses may miss its ends.
+constexpr double kMargin = 0.05;
+
+std::array<std::array<double, 2>, 6> BoxOf(const Observations& observations) {
+  std::array<std::array<double, 2>, 6> box;
+  box.fill({std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
+  for (const Observation& o : observations.items) {
+    const Vector6d y = VectorFromPose(o.base_from_platform);
+    for (int i = 0; i < 6; ++i) box[i] = {std::min(box[i][0], y[i]), std::max(box[i][1], y[i])};
+  }
+  return box;
+}
+
+}  // namespace
+
+Vector6d Workspace::Centre() const {
+  Vector6d centre;
+  for (int i = 0; i < 6; ++i) centre[i] = 0.5 * (box[i][0] + box[i][1]);
+  return centre;
+}
+
+Workspace MakeWorkspace(const std::optional<std::array<std::array<double, 2>, 6>>& stated,
+                        const Observations& observations) {
+  Workspace workspace;
+  const auto measured = BoxOf(observations);
+  workspace.box = stated.value_or(measured);
+  workspace.is_stated = stated.has_value();
+  for (int i = 0; i < 6; ++i) {
+    const auto& [low, high] = workspace.box[i];
+    const double margin = kMargin * (high - low);
+    workspace.is_measured =
+        workspace.is_measured && measured[i][0] <= low + margin && measured[i][1] >= high - margin;
+  }
+  return workspace;
+}
+
+bool IsReached(const Dataset& dataset, const Pose3d& base_from_platform) {
+  if (!dataset.hexapod || !dataset.hexapod->leg_limits) return true;
+  const LegLengths lengths = InverseKinematics(*dataset.hexapod, base_from_platform);
+  const Eigen::Vector2d& limits = *dataset.hexapod->leg_limits;
+  return lengths.minCoeff() >= limits[0] && lengths.maxCoeff() <= limits[1];
+}
+
+std::vector<Place> GridOf(const Workspace& workspace, const Dataset& dataset) {
+  int count = 1;
+  for (int i = 0; i < 6; ++i) count *= kLevels;
+  std::vector<Place> places;
+  for (int k = 0; k < count; ++k) {
+    Vector6d y;
+    for (int i = 0, rest = k; i < 6; ++i, rest /= kLevels) {
+      const auto& [low, high] = workspace.box[i];
+      y[i] = low + (high - low) * (rest % kLevels) / (kLevels - 1);
+    }
+    Place place = {"", PoseFromVector(y)};
+    if (IsReached(dataset, place.base_from_platform)) places.push_back(std::move(place));
+  }
+  return places;
+}
+
+std::vector<Place> PosesOf(const Observations& observations) {
+  std::vector<Place> places;
+  for (const Observation& o : observations.items) places.push_back({o.label, o.base_from_platform});
+  return places;
+}
+
+std::string WordsOf(const Place& place) {
+  constexpr const char* kAxes[6] = {"x", "y", "z", "rx", "ry", "rz"};
+  const Vector6d y = VectorFromPose(place.base_from_platform);
+  std::string words = place.label.empty() ? "" : fmt::format("pose {}: ", place.label);
+  for (int i = 0; i < 6; ++i)
+    words += fmt::format(
+        "{}{} {:.4g} {}", i == 0 ? "" : ", ", kAxes[i], 1e3 * y[i] + 0.0, i < 3 ? "mm" : "mrad");
+  return words;
+}
+
+}  // namespace hexcal

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The report of an audit in a real browser, offline. Skipped where there is no Chromium.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "report/audit_html.h"
+#include "report/html/assets.h"
+#include "testing/audits.h"
+#include "testing/browser.h"
+
+namespace hexcal {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
+
+int Count(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++count;
+  return count;
+}
+
+// With a name that would do harm wherever a file may have one.
+TEST(AuditInBrowser, IsDrawnSaysWhatItsJsonSaysAndItsNamesAreOnlyNames) {
+  testing::Browser browser;
+  if (!browser.IsThere()) GTEST_SKIP() << "no Chromium: scripts/install_dependencies test";
+  const std::string hostile =
+      "</script><script>document.title='no'</script><img src=x onerror=\"document.title='no'\">";
+  testing::AuditedExample example = testing::AuditExample();
+  for (PoseResult& pose : example.estimate.poses) pose.label = hostile;
+  for (Observation& o : example.observations.items) o.label = hostile;
+  example.estimate.warnings = {hostile};
+  example.estimate.outliers.push_back({0, hostile, hostile});
+  Requirements requirements = testing::ExampleRequirements();
+  requirements.points[0].name = requirements.requirements[0].name = hostile;
+  requirements.robot->origin = hostile;
+  StatedSource source;
+  source.source = {hostile, SourceSite::kWorld, 1e-5, 1e-5};
+  source.origin = hostile;
+  requirements.sources.push_back(source);
+  requirements.identification = {{hostile, hostile}};
+  AuditInput input = example.Input(requirements);
+  input.earlier = EarlierResult{hostile, hostile, example.estimate.mounts, {}, {}};
+  const Audit audit = MakeAudit(input);
+  RunRecord record;
+  record.version = record.started_utc = hostile;
+  record.settings = {{hostile, hostile}};
+  const AuditIdentity identity = {{{hostile, "00"}}, "11"};
+  const std::string html = AuditHtml(identity, record, audit);
+  const std::string dom = browser.Dom(html);
+  EXPECT_THAT(browser.Console(), IsEmpty());
+  const int pictures = Count(html, "class=\"plot\"");
+  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 10);
+  EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), pictures);
+  const auto json = nlohmann::json::parse(AuditJson(identity, audit));
+  EXPECT_THAT(dom,
+              AllOf(HasSubstr("id=\"verdict\"><strong>" + json["verdict"].get<std::string>()),
+                    HasSubstr("<title>Accuracy audit: neurobot</title>"),
+                    Not(HasSubstr("<img")),
+                    HasSubstr("&lt;img")));
+  EXPECT_LT(html.size(), std::size_t{8} << 20);
+  EXPECT_THAT(browser.Pdf(html).substr(0, 8), StartsWith("%PDF"));
+  EXPECT_THAT(browser.Console(), IsEmpty());
+}
+
+}  // namespace
+}  // namespace hexcal

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// hexcal audit from outside. What it decides is tested with the report.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "testing/run_program.h"
+#include "testing/temporary_folder.h"
+
+namespace hexcal {
+namespace {
+
+using ::hexcal::testing::ProgramResult;
+using ::hexcal::testing::RunHexcal;
+using ::hexcal::testing::TemporaryFolder;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
+using Json = nlohmann::json;
+
+const std::string kExample = std::string(HEXCAL_EXAMPLES) + "/neurobot/";
+
+class CliAudit : public ::testing::Test {
+ protected:
+  ProgramResult Audit(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {
+        "audit", kExample + "dataset.yaml", "--out=out", "--draws=1000", "--folds=2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunHexcal({arguments, folder.Path("")});
+  }
+
+  std::string Read(const std::string& name) const { return folder.Read("out/neurobot/" + name); }
+
+  // The bundled requirement with another limit, mm.
+  std::string WithLimit(const std::string& limit) const {
+    std::string text = Bundled();
+    const std::string part = "limit: 0.5";
+    text.replace(text.find(part), part.size(), "limit: " + limit);
+    return folder.Write("r.yaml", text);
+  }
+
+  static std::string Bundled() {
+    std::ostringstream content;
+    content << std::ifstream(kExample + "requirement.yaml").rdbuf();
+    return content.str();
+  }
+
+  const std::string bundled = "--requirement=" + kExample + "requirement.yaml";
+  TemporaryFolder folder;
+};
+
+TEST_F(CliAudit, LeavesItsFilesAndSaysWhatIsInThem) {
+  const ProgramResult result = Audit({bundled, "--gate"});
+  EXPECT_EQ(result.status, 0) << result.err;
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.Path("out/neurobot")))
+    names.push_back(entry.path().filename().string());
+  EXPECT_THAT(
+      names,
+      UnorderedElementsAre("audit.json", "result.json", "model.yaml", "run.json", "report.html"));
+  const Json audit = Json::parse(Read("audit.json"));
+  EXPECT_EQ(audit["verdict"], "PASS");
+  EXPECT_EQ(audit["inputs"].size(), 4u);  // dataset, poses, markers, requirement
+  EXPECT_EQ(audit["id"].get<std::string>().size(), 64u);
+  EXPECT_THAT(result.out, HasSubstr("verdict PASS"));
+  EXPECT_THAT(result.out, HasSubstr("written to     out/neurobot"));
+  EXPECT_THAT(Read("report.html"), HasSubstr("id=\"verdict\"><strong>PASS</strong>"));
+  EXPECT_THAT(Read("report.html"), HasSubstr(audit["id"].get<std::string>()));
+  EXPECT_EQ(Json::parse(Read("result.json"))["residual"], "marker");
+  EXPECT_EQ(Json::parse(Read("run.json"))["settings"]["folds"], "2");
+}
+
+TEST_F(CliAudit, GateTurnsAFailIntoItsStatusAndNothingElseDoes) {
+  const std::string limit = "--requirement=" + WithLimit("0.01");
+  EXPECT_EQ(Audit({limit, "--quiet"}).status, 0);
+  const ProgramResult gated = Audit({limit, "--gate"});
+  EXPECT_EQ(gated.status, 7);
+  EXPECT_THAT(gated.out, HasSubstr("FAIL"));
+  EXPECT_EQ(Json::parse(Read("audit.json"))["verdict"], "FAIL");
+  EXPECT_EQ(Audit({"--gate"}).status, 2);
+}
+
+TEST_F(CliAudit, WritesTheSameBytesWhateverTheThreads) {
+  ASSERT_EQ(Audit({bundled, "--threads=1", "--quiet"}).status, 0);
+  std::vector<std::string> once;
+  for (const char* name : {"audit.json", "result.json", "model.yaml"}) once.push_back(Read(name));
+  const ProgramResult again = Audit({bundled, "--threads=3", "--json"});
+  ASSERT_EQ(again.status, 0) << again.err;
+  int i = 0;
+  for (const char* name : {"audit.json", "result.json", "model.yaml"})
+    EXPECT_EQ(Read(name), once[i++]) << name;
+  EXPECT_EQ(Json::parse(again.out), Json::parse(Read("audit.json")));
+}
+
+// Against its own result nothing has changed; result.json goes in as it came out.
+TEST_F(CliAudit, ComparesWithAnEarlierResult) {
+  ASSERT_EQ(Audit({"--quiet"}).status, 0);
+  const std::string earlier = folder.Write("earlier.json", Read("result.json"));
+  ASSERT_EQ(Audit({"--quiet", "--previous=" + earlier}).status, 0);
+  const Json audit = Json::parse(Read("audit.json"));
+  EXPECT_EQ(audit["verdict"], "none");
+  EXPECT_NEAR(audit["change"]["chi_square"].get<double>(), 0.0, 1e-9);
+  EXPECT_NEAR(audit["change"]["p_value"].get<double>(), 1.0, 1e-9);
+  EXPECT_THAT(Read("report.html"), HasSubstr("Change since an earlier calibration"));
+}
+
+TEST_F(CliAudit, RefusesWhatIsNotAsItShouldBe) {
+  const ProgramResult limit = Audit({"--requirement=" + WithLimit("-1")});
+  EXPECT_EQ(limit.status, 3);
+  EXPECT_THAT(limit.err, HasSubstr("r.yaml:"));
+  EXPECT_THAT(limit.out, IsEmpty());
+  const ProgramResult json = Audit({"--previous=" + folder.Write("p.json", "{\"format\": 1}")});
+  EXPECT_EQ(json.status, 3);
+  EXPECT_THAT(json.err, HasSubstr("p.json:1:"));
+  EXPECT_EQ(Audit({"--previous=none.json"}).status, 3);
+  EXPECT_EQ(Audit({"--draws=10"}).status, 2);
+  EXPECT_EQ(Audit({"--solver=linearized", "--residual=marker"}).status, 2);
+  std::filesystem::create_directories(folder.Path("out/neurobot"));
+  folder.Write("out/neurobot/report.html", "<html>mine</html>");
+  EXPECT_EQ(Audit({"--quiet"}).status, 5);
+}
+
+}  // namespace
+}  // namespace hexcal

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/requirement.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "config/input_error.h"
+#include "config/units.h"
+#include "testing/input_error_text.h"
+#include "testing/temporary_folder.h"
+
+namespace hexcal {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const std::string kGood = R"(format: hexcal/requirement/1
+units: {length: mm, angle: deg}
+identification: {operator: "<b>"}
+points:
+  - {name: tip, xyz: [1, 2, 120], standard_deviation: 0.05}
+  - {name: flange, xyz: [0, 0, 0]}
+workspace: {x: [-10, 10], y: [-20, 20], z: [200, 240], rx: [-5, 5], ry: [0, 0], rz: [-90, 90]}
+robot: {position: 0.005, orientation: 0.1, from: data sheet, degrees_of_freedom: 30}
+sources:
+  - {name: patient, at: world, position: 0.2, orientation: 0.05, distribution: uniform, from: assumed}
+requirements:
+  - {name: drilling, point: tip, limit: 0.5}
+  - {name: rest, point: flange, over: poses, limit: 1, probability: 0.99}
+)";
+
+class RequirementFile : public ::testing::Test {
+ protected:
+  Requirements Read(const std::string& text) {
+    return ReadRequirements(folder.Write("r.yaml", text));
+  }
+  // The message for the good file with one part in place of another.
+  std::string Refusal(const std::string& part, const std::string& other) {
+    std::string text = kGood;
+    const std::size_t at = text.find(part);
+    EXPECT_NE(at, std::string::npos) << part;
+    text.replace(at, part.size(), other);
+    return testing::InputErrorText([&] { Read(text); });
+  }
+
+  testing::TemporaryFolder folder;
+};
+
+TEST_F(RequirementFile, IsReadInSi) {
+  const Requirements r = Read(kGood);
+  EXPECT_EQ(r.identification[0].second, "<b>");
+  ASSERT_EQ(r.points.size(), 2u);
+  EXPECT_NEAR(r.points[0].p_in_tool.z(), 0.12, 1e-15);
+  EXPECT_NEAR(r.points[0].standard_deviation, 5e-5, 1e-18);
+  EXPECT_NEAR((*r.workspace)[2][1], 0.24, 1e-15);
+  EXPECT_NEAR((*r.workspace)[5][0], -0.5 * kPi, 1e-12);
+  EXPECT_NEAR(r.robot->source.position, 5e-6, 1e-18);
+  EXPECT_NEAR(r.robot->source.orientation, 0.1 * kPi / 180.0, 1e-12);
+  EXPECT_EQ(r.robot->source.site, SourceSite::kPlatform);
+  EXPECT_EQ(r.robot->source.degrees_of_freedom, 30.0);
+  EXPECT_EQ(r.robot->origin, "data sheet");
+  ASSERT_EQ(r.sources.size(), 1u);
+  EXPECT_EQ(r.sources[0].source.site, SourceSite::kWorld);
+  EXPECT_EQ(r.sources[0].source.spread, Spread1d::kUniform);
+  EXPECT_TRUE(std::isinf(r.sources[0].source.degrees_of_freedom));
+  ASSERT_EQ(r.requirements.size(), 2u);
+  EXPECT_EQ(r.requirements[0].over, Requirement::Places::kWorkspace);
+  EXPECT_NEAR(r.requirements[0].limit, 5e-4, 1e-18);
+  EXPECT_EQ(r.requirements[0].probability, 0.95);
+  EXPECT_EQ(r.requirements[1].point, 1u);
+  EXPECT_EQ(r.requirements[1].over, Requirement::Places::kPoses);
+}
+
+TEST_F(RequirementFile, IsRefusedWithThePlaceAndWhatWasExpected) {
+  EXPECT_THAT(Refusal("requirement/1", "requirement/2"), HasSubstr("r.yaml:1:9"));
+  EXPECT_THAT(Refusal("length: mm", "length: inch"), HasSubstr("m or mm"));
+  EXPECT_THAT(Refusal("point: tip", "point: tpi"),
+              AllOf(HasSubstr("r.yaml:12:"), HasSubstr("'tpi'")));
+  EXPECT_THAT(Refusal("name: flange, xyz", "name: tip, xyz"), HasSubstr("a second point 'tip'"));
+  EXPECT_THAT(Refusal("xyz: [0, 0, 0]", "xyz: [0, 0]"), HasSubstr("r.yaml:6:"));
+  EXPECT_THAT(Refusal("x: [-10, 10]", "x: [10, -10]"), HasSubstr("[low, high]"));
+  EXPECT_THAT(Refusal("rx: [-5, 5], ", ""), HasSubstr("rx"));
+  EXPECT_THAT(Refusal("from: data sheet, ", ""), HasSubstr("from"));
+  EXPECT_THAT(Refusal("robot: {position: 0.005, ", "robot: {"), HasSubstr("position"));
+  EXPECT_THAT(Refusal("position: 0.2", "position: -0.2"), HasSubstr("r.yaml:10:"));
+  EXPECT_THAT(Refusal("at: world", "at: point"), HasSubstr("position alone"));
+  EXPECT_THAT(Refusal("at: world", "at: wrist"), HasSubstr("platform or tool or world or point"));
+  EXPECT_THAT(Refusal("distribution: uniform", "distribution: u"), HasSubstr("normal or uniform"));
+  EXPECT_THAT(Refusal("limit: 0.5", "limit: 0"), HasSubstr("r.yaml:12:"));
+  EXPECT_THAT(Refusal("limit: 0.5", "limit: .nan"), HasSubstr("r.yaml:12:"));
+  EXPECT_THAT(Refusal("probability: 0.99", "probability: 99"), HasSubstr("0.9999"));
+  EXPECT_THAT(Refusal("limit: 0.5", "limits: 0.5"), HasSubstr("limit"));
+  EXPECT_THAT(Refusal("degrees_of_freedom: 30", "degrees_of_freedom: 0"), HasSubstr("1"));
+}
+
+}  // namespace
+}  // namespace hexcal
