@@ -198,15 +198,13 @@ const Command kPlan = {
     1,
     1,
     "Takes the machine of the model and the poses that the dataset has measured already, and "
-    "chooses further poses (and loads, temperatures and other columns of robot_poses) within "
-    "reach: "
-    "those that determine base and tool best (D-optimality), or that tell the model's effects from "
-    "what they could also be (T-optimality). Says how sure the 12 parameters and how far apart the "
-    "rivals are now and will be then; where no pose can separate two, what experiment would. "
-    "FILE.csv is a table for the robot_poses of a new dataset, in the columns and units of this "
-    "one "
-    "and in the order in which to measure; FILE.json the same with all that is known of it. The "
-    "dataset may have no measured poses yet if it states its noise.",
+    "chooses further poses within reach, with loads, temperatures and whatever else is a column of "
+    "robot_poses: those that determine base and tool best (D-optimality), or that tell the model's "
+    "effects from what they could also be (T-optimality). Says how sure the 12 parameters and how "
+    "far apart the rivals are now and will be then; where no pose can separate two, what "
+    "experiment would. FILE.csv is a table for the robot_poses of a new dataset, in the columns "
+    "and units of this one and in the order in which to measure; FILE.json holds all that is known "
+    "of the plan. The dataset may have no measured poses yet if it states its noise.",
     {{"model", true},
      {"out", true, "FILE", "The plan to write, .csv or .json."},
      {"for"},

@@ -8,55 +8,71 @@
 namespace hexcal {
 namespace {
 
-constexpr std::string_view kConstant = "constant";  // of the table's drivers
 constexpr std::string_view kMovingTracker = "a tracker that moves";
 constexpr std::string_view kWholeBody = "the whole body of markers, moved";
 
-// What an experiment changes, by what it acts on. The first group in which both rivals stand
-// decides; a rival outside the table is in none.
-struct Group {
-  std::vector<std::string_view> members;
-  std::string_view experiment;
+// An experiment that changes what drives some effects, or looks at what they act on, and nothing
+// else.
+struct Experiment {
+  std::vector<std::string_view> sites;    // of the table of effects; empty: any
+  std::vector<std::string_view> drivers;  // likewise
+  std::string_view text;
+  std::string_view between;  // two effects of this kind; empty: text
 };
 
-const std::array<Group, 6>& Groups() {
-  static const std::array<Group, 6> groups = {{
-      {{"leg_offset",
-        "leg_gain",
-        "leg_nonlinearity",
-        "base_joint_offset",
-        "platform_joint_offset",
-        "base_radius",
-        "platform_radius",
-        "joint_axis_offset",
-        "leg_screw_rotation"},
-       "measure the joint circles on a coordinate measuring machine, or one leg's length with a "
-       "gauge over its travel"},
-      {{"leg_compliance", "leg_clearance", "base_flexure", "tool_sag"},
-       "hold the pose and change the load alone: several loads, also off the centre, and none"},
-      {{"tracker_scale",
-        "tracker_depth_scale",
-        "tracker_distortion",
-        "marker_offset",
-        "marker_shift"},
+// Of two rivals, the experiment that stands first: it needs the least beside the robot. Every
+// effect of the table has one.
+const std::array<Experiment, 8>& Experiments() {
+  static const std::array<Experiment, 8> experiments = {{
+      {{},
+       {"leg_force", "platform position × payload", "gravity seen from the platform"},
+       "hold one pose and change the load alone: several loads, also off the centre, and none",
+       ""},
+      {{},
+       {"temperature"},
+       "hold one pose and take the temperature up and down again",
+       "hold one pose and warm one part alone: the legs, a plate, the tool"},
+      {{},
+       {"leg_direction", "last move"},
+       "reach one pose again and again from both sides, and wait for several times before reading",
+       ""},
+      {{}, {"velocity"}, "read one pose at rest and at several speeds, both ways", ""},
+      {{"tracker"},
+       {},
+       "put a certified length bar into the tracker's volume, or read the single markers of bodies "
+       "whose sizes are certified (kind: markers)",
        "repeat the poses from a second place of the tracker, or put a certified length bar into "
        "its volume"},
-      {{"leg_thermal", "plate_thermal", "tool_thermal"},
-       "warm one part alone (a heating pad on a leg, on a plate, on the tool) in one pose"},
-      {{"base_drift", "tool_drift", "base_step", "tool_step", "tracker_warmup", "marker_shift"},
-       "leave a reference target on the base in view, and come back to one pose every ten"},
-      {{"leg_backlash", "latency", "settling"},
-       "measure one pose again and again, reached from both sides, at several speeds and after "
-       "several waits"},
+      {{},
+       {"time"},
+       "come back to one pose every ten, and leave a reference target on the base in view",
+       ""},
+      {{"marker"}, {}, "measure the body's markers on a coordinate measuring machine", ""},
+      {{"leg", "base_joint", "platform_joint", "base_joint or platform_joint"},
+       {},
+       "measure the joint circles on a coordinate measuring machine, or one leg's length with a "
+       "gauge over its travel",
+       ""},
   }};
-  return groups;
+  return experiments;
 }
 
-bool Has(const Group& group, std::string_view name) {
-  return std::find(group.members.begin(), group.members.end(), name) != group.members.end();
+bool Has(const std::vector<std::string_view>& words, std::string_view word) {
+  return words.empty() || std::find(words.begin(), words.end(), word) != words.end();
 }
 
-bool IsTracker(std::string_view name) { return name.rfind("tracker", 0) == 0; }
+// Its place in the list; behind all: no effect of the table, or one for which there is none.
+std::size_t ExperimentOf(const std::string& effect) {
+  const EffectKind* kind = FindEffectKind(effect);
+  std::size_t k = 0;
+  for (const Experiment& experiment : Experiments()) {
+    if (kind != nullptr && Has(experiment.sites, kind->site) &&
+        Has(experiment.drivers, kind->driver))
+      return k;
+    ++k;
+  }
+  return k;
+}
 
 // All markers of one body.
 bool CoversABody(const Effect& effect, const Measurement& measurement) {
@@ -70,11 +86,6 @@ bool CoversABody(const Effect& effect, const Measurement& measurement) {
     first = last;
   }
   return false;
-}
-
-std::string DriverOf(const std::string& name) {
-  const EffectKind* kind = FindEffectKind(name);
-  return kind == nullptr ? "what drives " + name : std::string(kind->driver);
 }
 
 }  // namespace
@@ -102,18 +113,13 @@ std::string ExperimentFor(const std::string& effect, const std::string& rival) {
   if (rival == kWholeBody)
     return "measure the body's markers on a coordinate measuring machine; for predictions the two "
            "are the same";
-  for (const Group& group : Groups())
-    if (Has(group, effect) && Has(group, rival)) return std::string(group.experiment);
-  if (IsTracker(effect) || IsTracker(rival))
-    return "read the single markers of bodies whose sizes are certified (kind: markers), or put a "
-           "certified length bar into the tracker's volume";
-  const std::string one = DriverOf(effect), other = DriverOf(rival);
-  if (one == other) return "measure the part that " + effect + " blames by itself, off the robot";
-  // What is constant cannot be changed; only the other one follows its driver.
-  if (one == kConstant || other == kConstant)
-    return "hold the pose and change the " + (one == kConstant ? other : one) + " alone";
-  return "hold the pose and change the " + one + " while the " + other +
-         " stays, then the other way round";
+  const std::size_t one = ExperimentOf(effect), other = ExperimentOf(rival);
+  const std::size_t first = std::min(one, other);
+  if (first == Experiments().size())
+    return "vary what drives it independently of the pose, of time and of all else";
+  const Experiment& experiment = Experiments()[first];
+  const bool is_between = one == other && !experiment.between.empty();
+  return std::string(is_between ? experiment.between : experiment.text);
 }
 
 }  // namespace hexcal

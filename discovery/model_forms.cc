@@ -4,8 +4,12 @@
 #include <cmath>
 #include <map>
 
+#include "estimator/free_effect.h"
+
 namespace hexcal {
 namespace {
+
+constexpr double kPriorWidth = 3.0;  // in plausible sizes, as calibrate --model has it
 
 FormDefinition UnitForm(const Effect& effect, const std::vector<int>& numbers) {
   FormDefinition form;
@@ -21,12 +25,6 @@ bool IsLinear(const EffectKind* kind, int number) {
   if (kind == nullptr) return true;  // a description is a sum of columns
   const ParameterKind& parameter = kind->ParameterOf(number);
   return !parameter.is_search && parameter.acts_alone;
-}
-
-bool IsFree(const Effect& effect, const EffectKind* kind, int number) {
-  if (effect.standard_deviation.size() > 0) return !std::isnan(effect.standard_deviation[number]);
-  const bool is_searched = kind != nullptr && kind->ParameterOf(number).is_search;
-  return effect.parameters[number] != 0.0 && !is_searched;
 }
 
 }  // namespace
@@ -48,13 +46,10 @@ EffectSignal SignalOf(const Effect& effect) {
 }
 
 FormDefinition FreeFormOf(const Effect& effect) {
-  const EffectKind* kind = FindEffectKind(effect.name);
-  std::vector<int> numbers;
-  for (int n = 0; n < effect.parameters.size(); ++n)
-    if (IsFree(effect, kind, n)) numbers.push_back(n);
-  FormDefinition form = UnitForm(effect, numbers);
-  for (std::size_t k = 0; k < numbers.size(); ++k)
-    form.scale[static_cast<Eigen::Index>(k)] = kind == nullptr ? 0.0 : kind->ScaleOf(numbers[k]);
+  const GrownEffect grown = FreeEffect(effect, kPriorWidth);
+  FormDefinition form = UnitForm(effect, grown.free);
+  for (Eigen::Index k = 0; k < form.scale.size(); ++k)
+    form.scale[k] = std::isfinite(grown.prior_sigma[k]) ? grown.prior_sigma[k] : 0.0;
   return form;
 }
 

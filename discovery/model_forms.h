@@ -20,9 +20,8 @@ struct EffectSignal {
 };
 EffectSignal SignalOf(const Effect& effect);
 
-// An effect's numbers that a fit moves, at their values: those that have a standard deviation; of
-// an effect that has none, those that are not zero and not searched for. scale: of the prior; 0:
-// none.
+// An effect's numbers that calibrate --model moves (FreeEffect), at their values. scale: 1-sigma of
+// the prior that it holds them with; 0: none.
 FormDefinition FreeFormOf(const Effect& effect);
 
 // Some forms of a library and what they share columns with. Gives, for each asked form, its place.

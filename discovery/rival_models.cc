@@ -2,7 +2,6 @@
 #include "discovery/rival_models.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <set>
 
@@ -14,9 +13,6 @@ namespace hexcal {
 namespace {
 
 constexpr std::size_t kMostForms = 4;  // of a rival
-// Plausible sizes: the prior of an effect that is estimated along with base and tool, as calibrate
-// --model has it.
-constexpr double kPriorWidth = 3.0;
 
 // From this family on; -1: none.
 int FamilyOf(const FormLibrary& library, const std::string& name, std::size_t from) {
@@ -100,7 +96,9 @@ class RivalSearch {
       rivals_.push_back(rival);
       for (const Gauge::Part& part : gauge.together) in_gauges.insert(part.name);
     }
-    const int family = FamilyOf(library_, effect.name, own_.library.families.size());
+    const int family = effect.name == kUnknownEffect
+                           ? DescriptionOf(effect)
+                           : FamilyOf(library_, effect.name, own_.library.families.size());
     if (family < 0) return;
     const LinearProblem problem = Without(e);
     const Scorer scorer(problem, noise_);
@@ -115,6 +113,19 @@ class RivalSearch {
       if (other < 0) continue;  // a description has no law to plan against
       rivals_.push_back({e, rival.name, Likeliest(scorer, problem, other)});
     }
+  }
+
+  // The family of what has no name but a site, a driver and a power.
+  int DescriptionOf(const Effect& effect) const {
+    for (std::size_t f = own_.library.forms.size(); f < library_.forms.size(); ++f) {
+      const Effect& form = library_.forms[f].effect;
+      if (form.name != kUnknownEffect || form.found != effect.found) continue;
+      const auto power = form.reference.find("power"), asked = effect.reference.find("power");
+      if (power != form.reference.end() && asked != effect.reference.end() &&
+          power->second == asked->second)
+        return library_.forms[f].family;
+    }
+    return -1;
   }
 
   bool IsInModel(const std::string& name) const {
@@ -229,7 +240,7 @@ DesignModels MakeDesignModels(const PlanForms& forms,
   Eigen::Index at = 0;
   for (const int form : free)
     for (const double scale : forms.library.forms[form].scale) {
-      if (scale > 0.0) models.parameters.prior[at] = 1.0 / std::pow(kPriorWidth * scale, 2);
+      if (scale > 0.0) models.parameters.prior[at] = 1.0 / (scale * scale);
       ++at;
     }
   for (int e = 0; e < count; ++e) {

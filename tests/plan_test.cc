@@ -17,6 +17,7 @@
 #include "discovery/pose_pool.h"
 #include "discovery/score.h"
 #include "estimator/calibrate.h"
+#include "estimator/calibrate_grown.h"
 #include "model/simulate.h"
 #include "testing/grown_scene.h"
 #include "testing/input_error_text.h"
@@ -310,6 +311,52 @@ TEST(Plan, RivalsAreMistakenAsOftenAsForetoldAndLessThanWithRandomPoses) {
   RobotPoses random = plan.poses;
   for (RobotPose& row : random.rows) row.base_from_platform = pool[rng() % pool.size()];
   EXPECT_GT(Mistaken(Extended(before, random), truth, "leg_offset", "base_radius"), then + 0.05);
+}
+
+TEST(Plan, DeviationsForetoldWithEffectsAreThoseOfAJointCalibration) {
+  auto rng = SeededByTest();
+  Dataset dataset = PoseDataset(rng, 20, true);
+  const Machine truth = WithEffect(TrueMachine(rng), "leg_gain", 2.0, dataset);
+  const Dataset before = Measured(dataset, truth, 1);
+  PlanOptions options;
+  options.goal = PlanGoal::kParameters;
+  options.pool = 150;
+  const Plan plan = MakePlan(before, CalibrateGrown(before, truth, {}).machine, options);
+  const Dataset after = Measured(Extended(before, plan.poses), truth, 2);
+  const Estimate now = CalibrateGrown(before, truth, {}).estimate;
+  const Estimate then = CalibrateGrown(after, truth, {}).estimate;
+  const Estimate without = Calibrate(MakeObservations(after), std::nullopt, {});
+  for (int k = 0; k < 12; ++k) {
+    EXPECT_NEAR(plan.deviation_before[k] / std::sqrt(now.covariance(k, k)), 1.0, 0.01) << k;
+    EXPECT_NEAR(plan.deviation_after[k] / std::sqrt(then.covariance(k, k)), 1.0, 0.01) << k;
+  }
+  // What the gains cost.
+  EXPECT_GT(then.covariance.trace(), 1.05 * without.covariance.trace());
+}
+
+// Two laws of the tracker, which markers tell and poses hardly do.
+TEST(Plan, RivalsThatShowInTheMarkersAreMistakenAsOftenAsForetold) {
+  auto rng = SeededByTest();
+  Dataset dataset = testing::Plan(rng, false);
+  dataset.robot_poses.covariates.clear();
+  dataset.robot_poses.rows.resize(30);
+  const Machine truth = WithEffect(TrueMachine(rng), "tracker_scale", 0.05, dataset);
+  const Dataset before = Measured(dataset, truth, 1);
+  PlanOptions options;
+  options.goal = PlanGoal::kRivals;
+  options.poses = 5;
+  options.pool = 100;
+  const Plan plan = MakePlan(before, truth, options);
+  const RivalPair* pair = PairOf(plan, "tracker_depth_scale");
+  ASSERT_NE(pair, nullptr);
+  for (const auto& [poses, distance] :
+       {std::pair(before, pair->before), std::pair(Extended(before, plan.poses), pair->after)}) {
+    const double chance = ChanceOfMistake(distance);
+    EXPECT_NEAR(Mistaken(poses, truth, "tracker_scale", "tracker_depth_scale"),
+                chance,
+                4.0 * std::sqrt(std::max(chance, 0.01) * (1.0 - chance) / 120.0))
+        << distance;
+  }
 }
 
 TEST(Plan, ATemperatureThatWentUpWithTimeIsPlannedUpAndDown) {
