@@ -9,10 +9,12 @@
 #include "discovery/answers.h"
 #include "discovery/faults.h"
 #include "discovery/gap_model.h"
+#include "discovery/geometry_words.h"
 #include "discovery/hold_out.h"
 #include "discovery/refit.h"
 #include "discovery/rivals.h"
 #include "discovery/select.h"
+#include "discovery/unknown_geometry.h"
 #include "discovery/where.h"
 #include "estimator/calibrate.h"
 #include "estimator/quantiles.h"
@@ -41,6 +43,7 @@ class Discoverer {
       result_.not_testable.push_back({name, needs});
     problem_ = MakeGapProblem(data_, MountsOf(result_.base_and_tool), {}, library_);
     SelectEffects();
+    CompareWithGeometry();
     Grow();
     Judge();
     return std::move(result_);
@@ -100,9 +103,45 @@ class Discoverer {
                     [this](int done) { Report("held-out poses", done, options_.folds); });
   }
 
+  // A map of the pose has to foretell poses better than legs that nobody published.
+  void CompareWithGeometry() {
+    if (selection_.chosen.empty() || data_.hexapod) return;
+    Report("leg geometry", 0, 1);
+    geometry_ = FindUnknownGeometry(data_,
+                                    MountsOf(result_.base_and_tool),
+                                    problem_,
+                                    library_,
+                                    selection_,
+                                    options_.folds,
+                                    options_.seed);
+    if (!geometry_) return;
+    GeometryClass& report = geometry_->report;
+    report.heldout_map = held_.after;
+    report.is_in_model =
+        options_.folds >= 2 && report.heldout.chi_square < report.heldout_map.chi_square;
+    if (report.is_in_model) {
+      selection_.noise = geometry_->noise;
+      held_.before = geometry_->heldout_before, held_.after = geometry_->heldout_after;
+    }
+    result_.leg_geometry = report;
+  }
+
+  bool HasGeometry() const { return geometry_ && geometry_->report.is_in_model; }
+
   // The exact machine, from where the linear fit says.
   void Grow() {
     Report("refit", 0, 1);
+    if (HasGeometry())
+      refit_ = RefitGeometry(*geometry_, &data_);
+    else
+      GrowForms();
+    if (!refit_.converged)
+      result_.warnings.emplace_back("the refit with the effects did not converge");
+    FillMachine();
+    FillEstimate();
+  }
+
+  void GrowForms() {
     // What the data determine badly is held to the size that they make likely.
     const double width =
         selection_.chosen.empty()
@@ -125,10 +164,6 @@ class Discoverer {
       refit_ = Unchanged();
     else
       refit_ = RefitMachine(data_, start, effects, selection_.noise, width);
-    if (!refit_.converged)
-      result_.warnings.emplace_back("the refit with the effects did not converge");
-    FillMachine();
-    FillEstimate();
   }
 
   Refit Unchanged() const {
@@ -146,7 +181,7 @@ class Discoverer {
     machine.dataset = dataset_.name;
     machine.world_from_base = refit_.mounts.world_from_base;
     machine.platform_from_tool = refit_.mounts.platform_from_tool;
-    machine.hexapod = dataset_.hexapod;
+    machine.hexapod = data_.hexapod;
     // Where the first move came from must not depend on the rows that are predicted.
     if (machine.hexapod && !machine.hexapod->home)
       machine.hexapod->home = HomePose(&*machine.hexapod, reported_);
@@ -237,10 +272,12 @@ class Discoverer {
     const JointFit alone =
         FitJointly(problem_.linear, selection_.noise, {}, kPrior, Eigen::VectorXd());
     result_.gap.before = SizeOf(problem_.linear, selection_.noise, alone.left, 12);
-    result_.gap.after = SizeOf(problem_.linear,
-                               selection_.noise,
-                               refit_.problem.linear.error,
-                               ParametersOf(selection_.chosen));
+    result_.gap.after = SizeOf(
+        problem_.linear,
+        selection_.noise,
+        refit_.problem.linear.error,
+        HasGeometry() ? 6 * problem_.linear.poses - geometry_->report.after.degrees_of_freedom
+                      : ParametersOf(selection_.chosen));
     result_.gap.heldout_before = held_.before;
     result_.gap.heldout_after = held_.after;
     // Noise of the measurement and of all that was fitted, at each pose.
@@ -279,14 +316,38 @@ class Discoverer {
     const bool kind_poses = dataset_.measurement->kind == Measurement::Kind::kPoses;
     const std::vector<std::vector<Rival>> rivals =
         RivalsOf(problem_.linear, selection_.noise, selection_.chosen, kind_poses);
+    std::size_t refitted = 0;
+    bool is_class_there = false;
     for (std::size_t k = 0; k < selection_.chosen.size(); ++k) {
-      DiscoveredEffect found = AnswerFor(refit_.effects[k], dataset_);
+      const int form = selection_.chosen[k];
+      const bool follows_pose = FollowsPose(library_.forms[form].effect);
+      const bool is_class = follows_pose && HasGeometry();
+      if (is_class && is_class_there) continue;
+      if (HasGeometry() && !follows_pose && !geometry_->Keeps(form)) continue;
+      DiscoveredEffect found =
+          is_class ? GeometryAnswer() : AnswerFor(refit_.effects[refitted++], dataset_);
       found.p_value = selection_.p_values[k];
       found.log10_p = selection_.log10_p[k];
-      found.gap_closed = ClosedBy(held_.after_steps[k + 1]);
-      found.could_also_be = rivals[k];
+      found.gap_closed = ClosedBy(is_class ? held_.after.rms_position : held_.after_steps[k + 1]);
+      if (!is_class) found.could_also_be = rivals[k];
+      if (follows_pose && geometry_ && !is_class_there) {
+        const std::vector<Rival> more = GeometryRivals(geometry_->report);
+        found.could_also_be.insert(found.could_also_be.begin(), more.begin(), more.end());
+        is_class_there = true;
+      }
       result_.effects.push_back(std::move(found));
     }
+  }
+
+  // The class under the name of its most probable member.
+  DiscoveredEffect GeometryAnswer() const {
+    const auto member =
+        std::find_if(refit_.effects.begin(), refit_.effects.end(), [](const Effect& effect) {
+          return effect.name == "base_joint_offset";
+        });
+    DiscoveredEffect found = AnswerFor(*member, dataset_);
+    found.description = GeometrySentence(geometry_->report);
+    return found;
   }
 
   void FillNoise() {
@@ -335,7 +396,7 @@ class Discoverer {
         std::any_of(result_.effects.begin(), result_.effects.end(), [](const auto& e) {
           return e.effect.name == kUnknownEffect;
         });
-    const bool stopped_early = selection_.steps.back().added >= 0;
+    const bool stopped_early = !HasGeometry() && selection_.steps.back().added >= 0;
     return has_unknown || stopped_early ? Verdict::kPartlyExplained : Verdict::kExplained;
   }
 
@@ -350,6 +411,7 @@ class Discoverer {
   GapProblem problem_;
   Selection selection_;
   HeldOut held_;
+  std::optional<UnknownGeometry> geometry_;
   Refit refit_;
   Discovery result_;
 };

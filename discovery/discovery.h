@@ -103,6 +103,24 @@ struct NoiseFound {
   double shape_scale = 1.0;        // of the markers' misfit within their bodies, kind markers
 };
 
+// 95 % bounds of one number.
+struct Bound {
+  std::string name, unit;
+  double value = 0.0, lower = 0.0, upper = 0.0;
+};
+
+// Errors of legs and joints of a hexapod whose geometry is not published: a class of causes, for
+// the places of joints and the zeros of legs cannot be taken apart. The symmetric hexapod under it
+// is determined weakly.
+struct GeometryClass {
+  bool is_in_model = false;   // it foretold poses better than a map of the pose did
+  std::vector<Bound> bounds;  // radii, half angles of the pairs, heights
+  double yaw = 0.0;           // of the base's first pair, rad
+  double error_size = 0.0;    // 1-sigma of joints and legs that the data make likely, m
+  GapSize after;              // on the data
+  GapSize heldout, heldout_map;
+};
+
 enum class Verdict { kAgrees, kExplained, kPartlyExplained, kUndecided };
 constexpr std::string_view NameOf(Verdict verdict) {
   return verdict == Verdict::kAgrees      ? "agrees"
@@ -117,6 +135,7 @@ struct Discovery {
   std::vector<Detectable> detectable;
   Gap gap;
   std::vector<DiscoveredEffect> effects;
+  std::optional<GeometryClass> leg_geometry;  // where a gap follows the pose and no leg is known
   std::vector<Step> steps;
   Where where;
   NoiseFound noise;

@@ -12,28 +12,6 @@
 namespace hexcal {
 namespace {
 
-// Poses of each fold: every run of `folds` neighbours is dealt out in a drawn order, so that each
-// fold covers the whole time and no fold has two poses side by side by design.
-std::vector<std::vector<int>> Folds(int poses, int folds, std::uint64_t seed) {
-  std::mt19937_64 generator(seed);
-  std::vector<std::vector<int>> parts(folds);
-  std::vector<int> order(folds);
-  for (int first = 0; first < poses; first += folds) {
-    std::iota(order.begin(), order.end(), 0);
-    for (int i = folds - 1; i > 0; --i)
-      std::swap(order[i], order[static_cast<int>(generator() % static_cast<unsigned>(i + 1))]);
-    for (int i = 0; i < folds && first + i < poses; ++i) parts[order[i]].push_back(first + i);
-  }
-  return parts;
-}
-
-std::vector<int> AllBut(int poses, const std::vector<int>& left_out) {
-  std::vector<int> rest;
-  for (int k = 0; k < poses; ++k)
-    if (!std::binary_search(left_out.begin(), left_out.end(), k)) rest.push_back(k);
-  return rest;
-}
-
 Eigen::MatrixXd Rows(const Eigen::MatrixXd& m, const std::vector<int>& poses) {
   Eigen::MatrixXd some(6 * poses.size(), m.cols());
   for (std::size_t i = 0; i < poses.size(); ++i)
@@ -54,19 +32,6 @@ Eigen::VectorXd Predicted(const LinearProblem& train,
   return test.error - test.With(forms).nuisance * x;
 }
 
-// The noise of the whole data for some of its poses.
-GapNoise Restricted(const GapNoise& noise, const std::vector<int>& poses) {
-  GapNoise part = noise;
-  part.weight.resize(static_cast<Eigen::Index>(poses.size()));
-  part.shape_weight.resize(part.weight.size());
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    part.weight[i] = noise.weight[poses[i]];
-    part.shape_weight[i] = noise.shape_weight[poses[i]];
-  }
-  part.correlation = 0.0;
-  return part;
-}
-
 void Put(const Eigen::VectorXd& part, const std::vector<int>& poses, Eigen::VectorXd* whole) {
   for (std::size_t i = 0; i < poses.size(); ++i)
     whole->segment<6>(6 * poses[i]) = part.segment<6>(6 * static_cast<Eigen::Index>(i));
@@ -79,6 +44,38 @@ std::set<int> FamiliesOf(const LinearProblem& problem, const std::vector<int>& f
 }
 
 }  // namespace
+
+std::vector<std::vector<int>> HoldOutFolds(int poses, int folds, std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
+  std::vector<std::vector<int>> parts(folds);
+  std::vector<int> order(folds);
+  for (int first = 0; first < poses; first += folds) {
+    std::iota(order.begin(), order.end(), 0);
+    for (int i = folds - 1; i > 0; --i)
+      std::swap(order[i], order[static_cast<int>(generator() % static_cast<unsigned>(i + 1))]);
+    for (int i = 0; i < folds && first + i < poses; ++i) parts[order[i]].push_back(first + i);
+  }
+  return parts;
+}
+
+std::vector<int> AllBut(int poses, const std::vector<int>& left_out) {
+  std::vector<int> rest;
+  for (int k = 0; k < poses; ++k)
+    if (!std::binary_search(left_out.begin(), left_out.end(), k)) rest.push_back(k);
+  return rest;
+}
+
+GapNoise RestrictedNoise(const GapNoise& noise, const std::vector<int>& poses) {
+  GapNoise part = noise;
+  part.weight.resize(static_cast<Eigen::Index>(poses.size()));
+  part.shape_weight.resize(part.weight.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    part.weight[i] = noise.weight[poses[i]];
+    part.shape_weight[i] = noise.shape_weight[poses[i]];
+  }
+  part.correlation = 0.0;
+  return part;
+}
 
 GapSize SizeOf(const LinearProblem& problem,
                const GapNoise& noise,
@@ -111,7 +108,7 @@ HeldOut HoldOut(const LinearProblem& problem,
   std::vector<Eigen::VectorXd> steps(whole.chosen.size() + 1, Eigen::VectorXd(rows));
   folds = std::min(folds, problem.poses / 2);
   int done = 0;
-  for (const std::vector<int>& part : Folds(problem.poses, folds, seed)) {
+  for (const std::vector<int>& part : HoldOutFolds(problem.poses, folds, seed)) {
     const std::vector<int> rest = AllBut(problem.poses, part);
     const LinearProblem train = problem.Restricted(rest), test = problem.Restricted(part);
     SelectOptions options;
@@ -119,7 +116,7 @@ HeldOut HoldOut(const LinearProblem& problem,
     const Selection chosen = Select(train, Rows(trend, rest), options);
     if (FamiliesOf(problem, chosen.chosen) == FamiliesOf(problem, whole.chosen))
       ++held.folds_agreeing;
-    const GapNoise noise = Restricted(whole.noise, rest);
+    const GapNoise noise = RestrictedNoise(whole.noise, rest);
     Put(Predicted(train, test, noise, {}), part, &before);
     Put(Predicted(train, test, noise, chosen.chosen), part, &after);
     for (std::size_t k = 0; k < steps.size(); ++k) {

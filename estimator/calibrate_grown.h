@@ -18,8 +18,8 @@ struct GrownCalibration {
 
 // Base, tool and the effects of a model, on new data. Faults of the data are mended as the model
 // says, its pose map and what has no name stay as they are; other effects are estimated under
-// priors of three times their plausible size. Of the options: noise and threads. InputError where
-// the dataset lacks what an effect needs.
+// priors of three times their plausible size, or of the size in the model if that is more. Of the
+// options: noise and threads. InputError where the dataset lacks what an effect needs.
 GrownCalibration CalibrateGrown(const Dataset& dataset,
                                 const Machine& model,
                                 const CalibrateOptions& options);

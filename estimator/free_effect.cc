@@ -2,6 +2,7 @@
 #include "estimator/free_effect.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -34,6 +35,19 @@ bool HasPrior(const ParameterKind& parameter, double scale) {
   return scale > 0.0 && !parameter.is_search && !is_phase;
 }
 
+// RMS of the effect's numbers that have a prior, in plausible scales.
+double SizeOf(const Effect& effect, const EffectKind& kind) {
+  double sum = 0.0;
+  int count = 0;
+  for (int number = 0; number < effect.parameters.size(); ++number) {
+    const double scale = kind.ScaleOf(number);
+    if (!IsCarried(effect, kind, number) || !HasPrior(kind.ParameterOf(number), scale)) continue;
+    const double size = effect.parameters[number] / scale;
+    sum += size * size, ++count;
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0.0;
+}
+
 }  // namespace
 
 GrownEffect FreeEffect(const Effect& effect, double widths) {
@@ -42,17 +56,18 @@ GrownEffect FreeEffect(const Effect& effect, double widths) {
   const EffectKind* kind = FindEffectKind(effect.name);
   if (kind == nullptr || kind->IsFault()) return grown;
   std::vector<double> mean, sigma;
+  const double size = std::max(1.0, SizeOf(effect, *kind));
   for (int number = 0; number < effect.parameters.size(); ++number) {
     if (!IsCarried(effect, *kind, number) || !CanMove(effect, *kind, number)) continue;
     const double scale = kind->ScaleOf(number);
     const bool has_prior = HasPrior(kind->ParameterOf(number), scale);
     grown.free.push_back(number);
     mean.push_back(has_prior ? 0.0 : effect.parameters[number]);
-    sigma.push_back(has_prior ? widths * scale : std::numeric_limits<double>::infinity());
+    sigma.push_back(has_prior ? widths * size * scale : std::numeric_limits<double>::infinity());
   }
-  const auto size = static_cast<Eigen::Index>(mean.size());
-  grown.prior_mean = Eigen::Map<const Eigen::VectorXd>(mean.data(), size);
-  grown.prior_sigma = Eigen::Map<const Eigen::VectorXd>(sigma.data(), size);
+  const auto count = static_cast<Eigen::Index>(mean.size());
+  grown.prior_mean = Eigen::Map<const Eigen::VectorXd>(mean.data(), count);
+  grown.prior_sigma = Eigen::Map<const Eigen::VectorXd>(sigma.data(), count);
   return grown;
 }
 

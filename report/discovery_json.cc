@@ -53,6 +53,22 @@ Json FoundEffect(const DiscoveredEffect& found) {
   return effect;
 }
 
+Json GeometryObject(const GeometryClass& geometry) {
+  Json bounds = Json::object();
+  for (const Bound& bound : geometry.bounds)
+    bounds[bound.name] = {{"value", bound.value},
+                          {"lower", bound.lower},
+                          {"upper", bound.upper},
+                          {"unit", bound.unit}};
+  return {{"in_model", geometry.is_in_model},
+          {"bounds", bounds},
+          {"yaw", geometry.yaw},
+          {"error_size", geometry.error_size},
+          {"after", Size(geometry.after)},
+          {"heldout", Size(geometry.heldout)},
+          {"heldout_map", Size(geometry.heldout_map)}};
+}
+
 Json Candidate(const CandidateScore& candidate) {
   return {{"name", candidate.name},
           {"index", candidate.index},
@@ -126,6 +142,7 @@ Json DiscoveryObject(const std::string& dataset,
   });
   object["gap"] = GapObject(discovery.gap);
   object["effects"] = ListOf(discovery.effects, FoundEffect);
+  if (discovery.leg_geometry) object["leg_geometry"] = GeometryObject(*discovery.leg_geometry);
   object["steps"] = ListOf(discovery.steps, StepObject);
   object["where"] = WhereObject(discovery.where);
   object["noise"] = NoiseObject(discovery.noise);
