@@ -122,6 +122,13 @@ class Discoverer {
     if (report.is_in_model) {
       selection_.noise = geometry_->noise;
       held_.before = geometry_->heldout_before, held_.after = geometry_->heldout_after;
+      // What is in the model was tested.
+      auto& absent = result_.not_testable;
+      absent.erase(
+          std::remove_if(absent.begin(),
+                         absent.end(),
+                         [](const NotTestable& effect) { return IsGeometryError(effect.name); }),
+          absent.end());
     }
     result_.leg_geometry = report;
   }
@@ -217,6 +224,7 @@ class Discoverer {
   void Judge() {
     FillSteps();
     FillGap();
+    AddGeometryStep();
     FillEffects();
     std::vector<std::string> labels;
     for (const int row : data_.rows) labels.push_back(dataset_.robot_poses.rows[row].label);
@@ -255,6 +263,16 @@ class Discoverer {
       step.after = SizeOf(problem_.linear, selection_.noise, fit.left, ParametersOf(so_far));
       result_.steps.push_back(std::move(step));
     }
+  }
+
+  // What took the place of the map, after the steps that led to it.
+  void AddGeometryStep() {
+    if (!HasGeometry()) return;
+    Step step;
+    step.added = "base_joint_offset";
+    step.p_value = result_.steps.front().p_value;
+    step.after = result_.gap.after;
+    result_.steps.push_back(std::move(step));
   }
 
   int ParametersOf(const std::vector<int>& forms) const {

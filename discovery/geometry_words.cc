@@ -10,8 +10,9 @@ namespace hexcal {
 namespace {
 
 constexpr const char* kDecide =
-    "to tell them apart: the maker's drawing, a coordinate measuring machine on the joints, and "
-    "poses in the corners of the workspace";
+    "to tell them apart: the maker's drawing or a coordinate measuring machine on the joints; "
+    "poses "
+    "beyond those measured, in the corners of the workspace, tell leg geometry from a map";
 
 std::string Range(const Bound& bound) {
   std::string name = bound.name;
@@ -29,9 +30,10 @@ std::string Range(const Bound& bound) {
 }  // namespace
 
 std::string GeometrySentence(const GeometryClass& geometry) {
-  std::string text =
-      fmt::format("A symmetric hexapod whose joints and leg zeros are off by some {:.2g} mm each: ",
-                  1e3 * geometry.error_size);
+  std::string text = fmt::format(
+      "Leg geometry, as a class: a symmetric hexapod whose joints and leg zeros are off by some "
+      "{:.2g} mm each: ",
+      1e3 * geometry.error_size);
   for (std::size_t k = 0; k < geometry.bounds.size(); ++k)
     text += (k > 0 ? ", " : "") + Range(geometry.bounds[k]);
   return text + "; in parentheses 95 % bounds, given how its frames lie.";
@@ -55,12 +57,11 @@ std::vector<Rival> GeometryRivals(const GeometryClass& geometry) {
         {"leg_gain", one_class},
         {"unknown", fmt::format("a smooth map of the platform over the pose ({})", held_out)}};
   } else {
-    rivals = {
-        {"base_joint_offset",
-         fmt::format("leg geometry ({}). {} {}", held_out, GeometrySentence(geometry), kDecide)},
-        {"platform_joint_offset", one_class},
-        {"leg_offset", one_class},
-        {"leg_gain", one_class}};
+    rivals = {{"base_joint_offset",
+               fmt::format("{}; {}. {}", held_out, GeometrySentence(geometry), kDecide)},
+              {"platform_joint_offset", one_class},
+              {"leg_offset", one_class},
+              {"leg_gain", one_class}};
   }
   return rivals;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "discovery/geometry_search.h"
@@ -16,6 +17,8 @@
 namespace hexcal {
 namespace {
 
+constexpr const char* kErrors[] = {
+    "leg_offset", "leg_gain", "base_joint_offset", "platform_joint_offset"};
 constexpr double kKeep = 3.0;  // -log10 p that an effect must keep when the errors are there
 
 // Base, tool and the errors of a part of the poses, from their own search.
@@ -226,6 +229,10 @@ class GeometryFinder {
 };
 
 }  // namespace
+
+bool IsGeometryError(const std::string& name) {
+  return std::find(std::begin(kErrors), std::end(kErrors), name) != std::end(kErrors);
+}
 
 bool FollowsPose(const Effect& effect) {
   if (effect.name != kUnknownEffect) return false;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "discovery/discovery.h"
@@ -41,6 +42,9 @@ std::optional<UnknownGeometry> FindUnknownGeometry(const GapData& data,
                                                    const Selection& selection,
                                                    int folds,
                                                    std::uint64_t seed);
+
+// Whether this is the name of one of the errors.
+bool IsGeometryError(const std::string& name);
 
 // Whether a form describes the gap by the pose alone.
 bool FollowsPose(const Effect& effect);

@@ -64,7 +64,9 @@ std::string VerdictMeaning(Verdict verdict) {
 }
 
 std::string CarriersOf(const DiscoveredEffect& found) {
-  if (found.labels.size() == 6 && found.labels.front() == "leg 1") return "all legs";
+  if (found.labels.size() == 6)
+    for (const char* part : {"leg", "base joint", "platform joint"})
+      if (found.labels.front() == fmt::format("{} 1", part)) return fmt::format("all {}s", part);
   if (!found.labels.empty()) return JoinWords(found.labels);
   return found.site.empty() ? "place unknown" : found.site;
 }

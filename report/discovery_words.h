@@ -16,7 +16,8 @@ std::string VerdictSentence(const Discovery& discovery);
 // What the verdict means for who reads it, one sentence.
 std::string VerdictMeaning(Verdict verdict);
 
-// "leg 1, leg 2 and leg 5", "all legs" where it is all six, else the site.
+// "leg 1, leg 2 and leg 5", "all legs" (or base or platform joints) where it is all six,
+// else the site.
 std::string CarriersOf(const DiscoveredEffect& found);
 
 // "gain: leg 3 123 ± 4 ppm", a line a parameter that is not zero by construction; what was found

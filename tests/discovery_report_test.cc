@@ -40,6 +40,42 @@ std::vector<std::string> KeysOf(const Json& object) {
   return keys;
 }
 
+TEST(DiscoveryJson, SaysWhatIsKnownOfUnpublishedLegs) {
+  Discovery discovery = testing::MakeDiscovery();
+  EXPECT_FALSE(Written(discovery).contains("leg_geometry"));
+  GeometryClass& geometry = discovery.leg_geometry.emplace();
+  geometry.is_in_model = true;
+  geometry.bounds = {{"base_radius", "m", 0.5, 0.25, 0.75},
+                     {"base_half_angle", "rad", 0.125, 0.0625, 0.25}};
+  geometry.yaw = 0.5, geometry.error_size = 1e-3;
+  geometry.after.chi_square = 400.0;
+  geometry.heldout.rms_position = 4e-5, geometry.heldout_map.rms_position = 6e-5;
+  const Json json = Written(discovery)["leg_geometry"];
+  EXPECT_THAT(
+      KeysOf(json),
+      ElementsAre("in_model", "bounds", "yaw", "error_size", "after", "heldout", "heldout_map"));
+  EXPECT_EQ(json["in_model"], true);
+  const Json& radius = json["bounds"]["base_radius"];
+  EXPECT_THAT(KeysOf(radius), ElementsAre("value", "lower", "upper", "unit"));
+  EXPECT_EQ(radius["value"], 0.5);
+  EXPECT_EQ(radius["lower"], 0.25);
+  EXPECT_EQ(radius["upper"], 0.75);
+  EXPECT_EQ(json["bounds"]["base_half_angle"]["unit"], "rad");
+  EXPECT_EQ(json["yaw"], 0.5);
+  EXPECT_EQ(json["error_size"], 1e-3);
+  EXPECT_EQ(json["after"]["chi_square"], 400.0);
+  EXPECT_EQ(json["heldout"]["rms_position"], 4e-5);
+  EXPECT_EQ(json["heldout_map"]["rms_position"], 6e-5);
+}
+
+TEST(DiscoveryWords, JointsAreCalledAllWhereTheyAre) {
+  DiscoveredEffect found;
+  for (int i = 1; i <= 6; ++i) found.labels.push_back("base joint " + std::to_string(i));
+  EXPECT_EQ(CarriersOf(found), "all base joints");
+  found.labels.pop_back();
+  EXPECT_THAT(CarriersOf(found), HasSubstr("base joint 5"));
+}
+
 TEST(DiscoveryJson, HasTheKeysOfItsFormat) {
   const Json json = Written(testing::MakeDiscovery());
   EXPECT_THAT(KeysOf(json),

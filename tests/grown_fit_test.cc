@@ -91,6 +91,23 @@ Eigen::VectorXd StartNear(const GrownEffect& truth, const EffectKind& kind) {
   return start;
 }
 
+// A model whose errors are large says so beforehand; one whose errors are small, or none, does not.
+TEST(FreeEffect, HasPriorsAsWideAsTheModelIsLarge) {
+  Effect effect;
+  effect.name = "leg_gain";
+  effect.index = {2, 5};
+  effect.parameters = Eigen::VectorXd::Zero(6);
+  const double scale = FindEffectKind("leg_gain")->ScaleOf(0);
+  EXPECT_DOUBLE_EQ(FreeEffect(effect, 3.0).prior_sigma[0], 3.0 * scale);
+  effect.parameters[1] = 0.5 * scale, effect.parameters[4] = -0.5 * scale;
+  EXPECT_DOUBLE_EQ(FreeEffect(effect, 3.0).prior_sigma[0], 3.0 * scale);
+  effect.parameters[1] = 6.0 * scale, effect.parameters[4] = -8.0 * scale;
+  const GrownEffect grown = FreeEffect(effect, 3.0);
+  ASSERT_EQ(grown.prior_sigma.size(), 2);
+  EXPECT_DOUBLE_EQ(grown.prior_sigma[1], 3.0 * std::sqrt(50.0) * scale);
+  EXPECT_EQ(grown.prior_mean[1], 0.0);
+}
+
 class EveryEffect : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(EveryEffect, IsRecoveredFromWhatItDoes) {

@@ -115,6 +115,12 @@ TEST(UnknownGeometry, WinsAgainstTheMapWhereItIsTheCause) {
   for (const Rival& rival : discovery.effects[0].could_also_be) members.insert(rival.name);
   for (const char* name : {"base_joint_offset", "platform_joint_offset", "leg_offset", "unknown"})
     EXPECT_EQ(members.count(name), 1u) << name;
+  EXPECT_NE(discovery.effects[0].description.find("base radius"), std::string::npos);
+  for (const NotTestable& effect : discovery.not_testable)
+    EXPECT_NE(effect.name, "base_joint_offset");
+  // The step to it is the last, and ends where the gap does.
+  EXPECT_EQ(discovery.steps.back().added, "base_joint_offset");
+  EXPECT_EQ(discovery.steps.back().after.chi_square, discovery.gap.after.chi_square);
   // The noise of a pose that is held out, and what the parameters add.
   EXPECT_LT(geometry.heldout.rms_position, 1.5 * kPosition * std::sqrt(3.0));
   EXPECT_NEAR(discovery.gap.after.chi_square / discovery.gap.after.degrees_of_freedom, 1.0, 0.25);
