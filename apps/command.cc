@@ -8,6 +8,7 @@
 #include "apps/calibrate.h"
 #include "apps/compare.h"
 #include "apps/discover.h"
+#include "apps/export.h"
 #include "apps/import.h"
 #include "apps/plan.h"
 #include "apps/predict.h"
@@ -158,6 +159,25 @@ const Command kDiscover = {
     &RunDiscover,
 };
 
+const Command kExport = {
+    "export",
+    "a calibration for other programs",
+    "FORMAT RESULT.json",
+    2,
+    2,
+    ExportDescription(),
+    {{"out", true, "DIR", "The files go to DIR."},
+     {"dataset"},
+     {"world_frame"},
+     {"base_frame"},
+     {"platform_frame"},
+     {"tool_frame"},
+     {"config"},
+     {"quiet"},
+     {"force"}},
+    &RunExport,
+};
+
 const Command kImport = {
     "import",
     "other programs' files to a dataset",
@@ -170,12 +190,14 @@ const Command kImport = {
      {"robot_format"},
      {"robot_rotation"},
      {"robot_columns"},
+     {"robot_map"},
      {"robot_inverse"},
      {"base"},
      {"tool"},
      {"base_body"},
      {"tool_body"},
      {"measured_inverse"},
+     {"map"},
      {"pair"},
      {"frames"},
      {"window"},
@@ -184,6 +206,7 @@ const Command kImport = {
      {"kind"},
      {"static_tracker"},
      {"hexapod"},
+     {"initial"},
      {"name"},
      {"config"},
      {"quiet"},
@@ -268,7 +291,7 @@ const CommandFlag* Command::FindFlag(std::string_view flag) const {
 
 const std::vector<Command>& Commands() {
   static const std::vector<Command> commands = {
-      kAudit, kCalibrate, kCompare, kDiscover, kImport, kPlan, kPredict, kSimulate};
+      kAudit, kCalibrate, kCompare, kDiscover, kExport, kImport, kPlan, kPredict, kSimulate};
   return commands;
 }
 

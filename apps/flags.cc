@@ -128,6 +128,11 @@ DEFINE_double(missing_value,
               "A point all of whose coordinates are this, in the file's unit, was not seen.");
 DEFINE_bool(static_tracker, false, "Tracker and base stood still throughout.");
 DEFINE_string(hexapod, "", "A YAML file with the hexapod's joints, such as another dataset.");
+DEFINE_string(initial,
+              "",
+              "A first guess of base or tool: an easy_handeye calibration. Needs measured poses.");
+DEFINE_string(map, "", "What the columns of the tracker's files mean (format columns).");
+DEFINE_string(robot_map, "", "What the columns of the robot's file mean.");
 DEFINE_string(name, "", "The name of the dataset.");
 DEFINE_string(for,
               "",
@@ -147,6 +152,11 @@ DEFINE_string(previous,
               "The result.json of an earlier calibration: what has changed since, against its "
               "uncertainty.");
 DEFINE_bool(gate, false, "Exit status 7 where a requirement fails. Goes with --requirement.");
+DEFINE_string(dataset, "", "The dataset of the result.");
+DEFINE_string(world_frame, "world", "What the others call the frame of the base's markers.");
+DEFINE_string(base_frame, "base", "What they call the base of the robot.");
+DEFINE_string(platform_frame, "platform", "What they call its platform.");
+DEFINE_string(tool_frame, "tool", "What they call the frame of the tool's markers.");
 DEFINE_int32(threads, 0, "Threads to use. The results do not depend on it.");
 DEFINE_bool(json, false, "Print the results as JSON instead, one object a line.");
 DEFINE_bool(quiet, false, "Print no results and no progress; warnings and errors stay.");
@@ -164,11 +174,13 @@ constexpr std::string_view kAccuracy = "Accuracy";
 constexpr std::string_view kDiscovery = "Discovery";
 constexpr std::string_view kFiles = "What the files do not say";
 constexpr std::string_view kPlanning = "Planning";
+constexpr std::string_view kNames = "What others call the frames";
 constexpr std::string_view kRunning = "Running";
 
 std::vector<FlagSpec> MakeSpecs() {
   std::vector<FlagSpec> specs = {
       {"out", kResults, "PATH", ""},
+      {"dataset", kResults, "FILE", ""},
       {"json", kResults, "", ""},
       {"quiet", kResults, "", ""},
       {"force", kResults, "", ""},
@@ -228,6 +240,9 @@ std::vector<FlagSpec> MakeSpecs() {
       {"kind", kFiles, "", "", {"any", "markers", "poses"}},
       {"static_tracker", kFiles, "", ""},
       {"hexapod", kFiles, "FILE.yaml", ""},
+      {"map", kFiles, "FILE.yaml", ""},
+      {"robot_map", kFiles, "FILE.yaml", ""},
+      {"initial", kFiles, "FILE.yaml", ""},
       {"name", kFiles, "NAME", "that of the folder"},
       {"for",
        kPlanning,
@@ -236,6 +251,10 @@ std::vector<FlagSpec> MakeSpecs() {
        {"parameters", "rivals"}},
       {"poses", kPlanning, "N", "", {}, 1, 1000},
       {"pool", kPlanning, "N", "", {}, 50, 20000},
+      {"world_frame", kNames, "NAME", ""},
+      {"base_frame", kNames, "NAME", ""},
+      {"platform_frame", kNames, "NAME", ""},
+      {"tool_frame", kNames, "NAME", ""},
       {"config", kRunning, "FILE.yaml", ""},
       {"threads", kRunning, "N", "all cores", {}, 1, 1024},
   };

@@ -88,6 +88,20 @@ TEST_F(CliImport, GivesTheSameByPosesWithinTheirNoise) {
   EXPECT_EQ(result["poses"].size(), 58u);
 }
 
+TEST_F(CliImport, SaysWhereAnotherConventionFits) {
+  EXPECT_THAT(ImportExample({"--pair=rows"}).out, HasSubstr("conventions as stated"));
+  const ProgramResult order = ImportExample({"--pair=rows", "--robot_rotation=zyx"});
+  EXPECT_EQ(order.status, 0);
+  EXPECT_THAT(order.err, HasSubstr("the robot's angles in the order xyz (--robot_rotation=xyz)"));
+  EXPECT_THAT(order.out, ::testing::Not(HasSubstr("conventions as stated")));
+  const ProgramResult inverse = ImportExample({"--pair=rows", "--robot_inverse"});
+  EXPECT_THAT(inverse.err, HasSubstr("the robot's poses as they are (no --robot_inverse)"));
+  // Poses of the tracker, its own frame being W.
+  const ProgramResult tracker =
+      ImportExample({"--pair=rows", "--kind=poses", "--measured_inverse", "--name=turned"});
+  EXPECT_THAT(tracker.err, HasSubstr("the tracker's poses as they are (no --measured_inverse)"));
+}
+
 TEST_F(CliImport, CommentsTheDatasetThatItWrites) {
   ASSERT_EQ(ImportExample(
                 {"--pair=rows", "--name=bench-3", "--hexapod=" + kExamples + "/neurobot/plan.yaml"})

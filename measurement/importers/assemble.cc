@@ -15,7 +15,7 @@
 namespace hexcal {
 namespace {
 
-constexpr double kNanosecond = 1e-9;  // s
+constexpr double kSecond = 1e9;  // ns
 constexpr const char* kMarkerPrefix[] = {"b", "t"};
 
 using Sides = std::vector<std::array<TrackedSide, 2>>;  // by file of the tracker, by BodyId
@@ -72,7 +72,7 @@ void AddTimes(const Recording& robot,
   const std::int64_t start = *std::min_element(times.begin(), times.end());
   Covariate time{"time", *FindCovariateUnit("s"), {}};
   for (const std::int64_t t : times)
-    time.values.push_back(kNanosecond * static_cast<double>(t - start));
+    time.values.push_back(static_cast<double>(t - start) / kSecond);
   poses.covariates.push_back(std::move(time));
 }
 
@@ -237,7 +237,6 @@ Assembled Assemble(const Recording& robot,
   dataset.tracker.is_static = options.static_tracker;
   dataset.warnings = robot.warnings;
   assembled.robot = Described(robot);
-  assembled.robot_vectors = robot.bodies.front().vectors;
   if (tracker.empty()) return assembled;
   for (const Recording& recording : tracker)
     dataset.warnings.insert(

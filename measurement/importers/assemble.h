@@ -41,8 +41,6 @@ struct Assembled {
   Dataset dataset;
   std::string robot, tracker;
   std::vector<std::string> bodies;
-  // By row of robot_poses, where the robot's file states angles: x y z and these, m and rad.
-  std::vector<std::optional<Vector6d>> robot_vectors;
 };
 
 // tracker: one recording a file, in the order given; empty: a dataset of robot poses alone.

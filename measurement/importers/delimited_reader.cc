@@ -82,7 +82,10 @@ Location DelimitedReader::At(std::size_t i) const {
 }
 
 double DelimitedReader::Number(std::size_t i) const {
-  const std::optional<double> value = ParseDouble(Text(i));
+  std::string text(Text(i));
+  const std::size_t comma = decimal_comma_ ? text.find(',') : std::string::npos;
+  if (comma != std::string::npos) text[comma] = '.';
+  const std::optional<double> value = ParseDouble(text);
   if (value && std::isfinite(*value)) return *value;
   throw InputError(At(i),
                    Text(i).empty() ? "an empty cell" : Quoted(Text(i)),
@@ -97,17 +100,20 @@ std::optional<double> DelimitedReader::NumberIfAny(std::size_t i) const {
 }
 
 std::optional<Eigen::Vector3d> DelimitedReader::Point(
-    std::size_t i, double scale, const std::optional<double>& missing_value) const {
+    const std::array<std::size_t, 3>& columns,
+    double scale,
+    const std::optional<double>& missing_value) const {
   Eigen::Vector3d point;
   std::size_t found = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::optional<double> value = NumberIfAny(i + k);
+    const std::optional<double> value = NumberIfAny(columns[k]);
     if (value) point[static_cast<Eigen::Index>(k)] = *value;
     found += value ? 1 : 0;
   }
   if (found == 0) return std::nullopt;
   if (found < 3)
-    throw InputError(At(i), fmt::format("{} of 3 coordinates", found), "all three, or none");
+    throw InputError(
+        At(columns[0]), fmt::format("{} of 3 coordinates", found), "all three, or none");
   if (missing_value && (point.array() == *missing_value).all()) return std::nullopt;
   return scale * point;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -21,6 +22,8 @@ class DelimitedReader {
 
   // The next line; false at the end.
   bool Next() { return lines_.Next(); }
+  // Numbers are written 1,5.
+  void set_decimal_comma(bool decimal_comma) { decimal_comma_ = decimal_comma; }
   std::string_view Line() const { return lines_.Line(); }
   int LineNumber() const { return lines_.Where().line; }
   Location Where() const { return lines_.Where(); }
@@ -44,6 +47,11 @@ class DelimitedReader {
   // part is there.
   std::optional<Eigen::Vector3d> Point(std::size_t i,
                                        double scale,
+                                       const std::optional<double>& missing_value) const {
+    return Point({i, i + 1, i + 2}, scale, missing_value);
+  }
+  std::optional<Eigen::Vector3d> Point(const std::array<std::size_t, 3>& columns,
+                                       double scale,
                                        const std::optional<double>& missing_value) const;
   // ns; InputError.
   std::int64_t Seconds(std::size_t i) const;
@@ -60,6 +68,7 @@ class DelimitedReader {
 
   LineReader lines_;
   std::vector<Cell> cells_;
+  bool decimal_comma_ = false;
 };
 
 // Without blanks at the ends; letters a-z.

@@ -7,9 +7,16 @@
 
 #include "config/input_file.h"
 #include "config/utf8.h"
+#include "measurement/importers/c3d.h"
+#include "measurement/importers/columns.h"
 #include "measurement/importers/delimited_reader.h"
+#include "measurement/importers/first_principles.h"
+#include "measurement/importers/motive.h"
+#include "measurement/importers/ndi_bodies.h"
 #include "measurement/importers/ndi_csv.h"
 #include "measurement/importers/pi_gcs.h"
+#include "measurement/importers/trajectories.h"
+#include "measurement/importers/yaml_poses.h"
 
 namespace hexcal {
 namespace {
@@ -24,6 +31,32 @@ bool IsNdiCsv(std::string_view text) { return BeginsWith(text, "tools,"); }
 
 bool IsPiGcs(std::string_view text) {
   return !text.empty() && text.front() == '#' && text.find("TYPE") < text.find('\n');
+}
+
+bool IsFirstPrinciples(std::string_view text) { return BeginsWith(text, "number of frames"); }
+
+bool IsMotive(std::string_view text) { return BeginsWith(text, "format version,"); }
+
+bool IsC3d(std::string_view text) {
+  return text.size() >= kBeginning && text[0] >= 2 && text[1] == 0x50;
+}
+
+bool IsEuroc(std::string_view text) { return BeginsWith(text, "#timestamp"); }
+
+bool IsRom(std::string_view text) { return text.substr(0, 4) == std::string_view("NDI\0", 4); }
+
+bool IsRig(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  return begin != std::string_view::npos &&
+         BeginsWith(text.substr(begin), "marker description file");
+}
+
+bool IsEasyHandeye(std::string_view text) {
+  return BeginsWith(text, "parameters:") || text.find("\ntransformation:") < text.size();
+}
+
+bool IsIndustrialCalibration(std::string_view text) {
+  return BeginsWith(text, "data:") || text.find("\ndata:") < text.size();
 }
 
 std::string Beginning(const std::string& path) {
@@ -56,11 +89,53 @@ const std::vector<ImportFormat>& ImportFormats() {
        false,
        &IsNdiCsv,
        &ReadNdiCsv},
+      {"first_principles",
+       "NDI First Principles, 3D data as text: markers",
+       false,
+       &IsFirstPrinciples,
+       &ReadFirstPrinciples},
+      {"motive",
+       "OptiTrack Motive, CSV: markers and poses of rigid bodies",
+       false,
+       &IsMotive,
+       &ReadMotive},
+      {"c3d", "C3D, binary, Intel byte order: markers", false, &IsC3d, &ReadC3d},
+      {"tum", "TUM trajectory: poses over time", false, nullptr, &ReadTum},
+      {"euroc", "EuRoC trajectory, CSV: poses over time", false, &IsEuroc, &ReadEuroc},
       {"pi_gcs",
        "Physik Instrumente GCS array: the poses of a hexapod",
        true,
        &IsPiGcs,
        &ReadPiGcs},
+      {"industrial_calibration",
+       "industrial_calibration, YAML list of files of poses",
+       false,
+       &IsIndustrialCalibration,
+       &ReadIndustrialCalibration},
+      {"columns",
+       "Any table, by a column map (--map, --robot_map)",
+       false,
+       nullptr,
+       &ReadColumnsFile},
+      {"rig",
+       "NDI marker description, text: a body, for --base_body and --tool_body",
+       false,
+       &IsRig,
+       nullptr,
+       &ReadRig},
+      {"rom",
+       "NDI tool definition, binary: a body, for --base_body and --tool_body",
+       false,
+       &IsRom,
+       nullptr,
+       &ReadRom},
+      {"easy_handeye",
+       "easy_handeye calibration, YAML: a first guess, for --initial",
+       false,
+       &IsEasyHandeye,
+       nullptr,
+       nullptr,
+       &ReadEasyHandeye},
   };
   return formats;
 }

@@ -36,6 +36,7 @@ class PiGcs {
   PiGcs(const std::string& path, const ImportOptions& options) : reader_(path), options_(options) {
     recording_.path = path;
     recording_.bodies.push_back({"robot", {}, {}});
+    recording_.bodies.back().rotation_order = options.rotation_order;
   }
 
   Recording Read() {

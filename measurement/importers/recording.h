@@ -22,11 +22,13 @@ struct RecordedMarker {
 // A tracked body, or the robot: one pose a row, recording_from_body; none where it was not seen.
 struct RecordedBody {
   std::string name;
-  std::vector<std::string> aliases;                // what else it may be called: port, serial
-  std::vector<std::optional<Pose3d>> poses;        // empty: the file has none for this body
-  std::vector<std::optional<Vector6d>> vectors{};  // x y z and three angles, m and rad, where the
-                                                   // file states poses so
-  std::vector<int> markers{};                      // indices into Recording::markers
+  std::vector<std::string> aliases;          // what else it may be called: port, serial
+  std::vector<std::optional<Pose3d>> poses;  // empty: the file has none for this body
+  // x y z and three angles, m and rad, where the file states poses so; then in this order:
+  // geometry/rotation_order.h.
+  std::vector<std::optional<Vector6d>> vectors{};
+  std::string rotation_order{};
+  std::vector<int> markers{};  // indices into Recording::markers
 };
 
 // What one file of another program holds, in SI. Nothing is said yet of which body is which.

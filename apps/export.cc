@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/export.h"
+
+#include <fmt/format.h>
+
+#include "apps/dataset_files.h"
+#include "apps/exit_status.h"
+#include "apps/flags.h"
+#include "apps/output_folder.h"
+#include "apps/usage_error.h"
+#include "config/strict_yaml.h"
+#include "estimator/observations.h"
+#include "report/export/formats.h"
+
+namespace hexcal {
+namespace {
+
+const ExportFormat& RequireFormat(const std::string& name) {
+  if (const ExportFormat* format = FindExportFormat(name)) return *format;
+  std::string names;
+  std::vector<std::string_view> known;
+  for (const ExportFormat& format : ExportFormats()) {
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
+    known.push_back(format.name);
+  }
+  const std::string nearest = NearestWord(name, known);
+  throw UsageError(
+      fmt::format("export: FORMAT: found '{}', expected one of {}{}\nTry 'hexcal help "
+                  "export'.",
+                  name,
+                  names,
+                  nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+}
+
+// A name of a frame goes into XML, YAML and command lines as it is.
+std::string FrameName(const std::string& name, std::string_view flag) {
+  const bool is_plain = name.find_first_not_of(
+                            "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./-") ==
+                            std::string::npos &&
+                        name.find_first_of("-.") != 0;
+  if (is_plain) return name;
+  throw UsageError(
+      fmt::format("export: --{}: found '{}', expected letters, digits, '_', '/', '.' "
+                  "and '-'",
+                  flag,
+                  name));
+}
+
+FrameNames FramesFromFlags() {
+  return {FrameName(FLAGS_world_frame, "world_frame"),
+          FrameName(FLAGS_base_frame, "base_frame"),
+          FrameName(FLAGS_platform_frame, "platform_frame"),
+          FrameName(FLAGS_tool_frame, "tool_frame")};
+}
+
+}  // namespace
+
+int RunExport(const std::vector<std::string>& files) {
+  const ExportFormat& format = RequireFormat(files[0]);
+  if (format.needs_dataset && FLAGS_dataset.empty())
+    throw UsageError(
+        fmt::format("export: --dataset=FILE is missing: {} has measured poses\nTry "
+                    "'hexcal help export'.",
+                    format.name));
+  ExportInput input;
+  input.frames = FramesFromFlags();
+  input.calibration = ReadCalibration(files[1]);
+  Observations observations;
+  std::vector<std::string> inputs = {files[1]};
+  if (format.needs_dataset) {
+    const Dataset dataset = OpenDataset(FLAGS_dataset, true);
+    observations = MakeObservations(dataset);
+    input.observations = &observations;
+    for (std::string& file : InputFiles(dataset, "")) inputs.push_back(std::move(file));
+  }
+  std::vector<OutputFile> outputs;
+  for (const std::string_view file : format.files)
+    outputs.push_back({std::string(file), std::string(kExportMark)});
+  OutputFolder folder(FLAGS_out, "", outputs, inputs, FLAGS_force);
+  for (const auto& [name, content] : format.write(input)) {
+    folder.Write(name, content);
+    if (!FLAGS_quiet) fmt::print("{}\n", folder.PathOf(name));
+  }
+  return kDone;
+}
+
+std::string_view ExportDescription() {
+  static const std::string text = [] {
+    std::string all =
+        "Writes a calibration (result.json) as other programs read it: base in world and tool on "
+        "platform, or what is left over at every pose. The files go to DIR. Formats:";
+    for (const ExportFormat& format : ExportFormats())
+      all += fmt::format("\n  {}: {}", format.name, format.summary);
+    return all;
+  }();
+  return text;
+}
+
+}  // namespace hexcal

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "measurement/dataset.h"
+#include "measurement/importers/assemble.h"
+
+namespace hexcal {
+
+// Tries other conventions on the imported data and prints a warning where another than the stated
+// one fits ten times better. Gives how many others were tried where none does; nothing where one
+// does, or where there is too little to tell.
+std::optional<std::size_t> CheckConventions(const Recording& robot,
+                                            const std::vector<Recording>& tracker,
+                                            const AssembleOptions& options,
+                                            const Dataset& dataset);
+
+}  // namespace hexcal
