@@ -233,6 +233,7 @@ const Command kPlan = {
      {"for"},
      {"poses"},
      {"pool"},
+     {"settings"},
      {"noise_position"},
      {"noise_orientation"},
      {"seed", false, {}, "The same seed draws the same pool and the same order."},

@@ -152,6 +152,11 @@ DEFINE_string(previous,
               "The result.json of an earlier calibration: what has changed since, against its "
               "uncertainty.");
 DEFINE_bool(gate, false, "Exit status 7 where a requirement fails. Goes with --requirement.");
+DEFINE_string(settings,
+              "",
+              "What columns of robot_poses may be set to, in their declared units: "
+              "payload=0:2:5,temperature=18:28. Other columns take values that the dataset has "
+              "seen.");
 DEFINE_string(dataset, "", "The dataset of the result.");
 DEFINE_string(world_frame, "world", "What the others call the frame of the base's markers.");
 DEFINE_string(base_frame, "base", "What they call the base of the robot.");
@@ -251,6 +256,7 @@ std::vector<FlagSpec> MakeSpecs() {
        {"parameters", "rivals"}},
       {"poses", kPlanning, "N", "", {}, 1, 1000},
       {"pool", kPlanning, "N", "", {}, 50, 20000},
+      {"settings", kPlanning, "COLUMN=A:B,...", "as the dataset has seen"},
       {"world_frame", kNames, "NAME", ""},
       {"base_frame", kNames, "NAME", ""},
       {"platform_frame", kNames, "NAME", ""},

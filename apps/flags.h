@@ -62,6 +62,7 @@ DECLARE_string(name);
 DECLARE_string(for);
 DECLARE_int32(poses);
 DECLARE_int32(pool);
+DECLARE_string(settings);
 DECLARE_string(requirement);
 DECLARE_string(previous);
 DECLARE_bool(gate);

@@ -3,7 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <fmt/ranges.h>
+
+#include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "apps/dataset_files.h"
 #include "apps/exit_status.h"
@@ -13,6 +17,7 @@
 #include "apps/stage_bars.h"
 #include "apps/usage_error.h"
 #include "config/input_error.h"
+#include "config/number.h"
 #include "discovery/plan.h"
 #include "measurement/recorded_table.h"
 #include "model/machine.h"
@@ -34,6 +39,50 @@ PlanOptions OptionsFromFlags() {
   if (FLAGS_noise_position > 0)
     options.noise = NoiseLevels{FLAGS_noise_position, FLAGS_noise_orientation};
   return options;
+}
+
+std::vector<std::string> Split(const std::string& text, char at) {
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+    if (c == at)
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
+}
+
+[[noreturn]] void RefuseSetting(const std::string& found, const std::string& expected) {
+  throw UsageError(fmt::format("plan: --settings: found '{}', expected {}", found, expected));
+}
+
+const Covariate& ColumnCalled(const Dataset& dataset, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Covariate& covariate : dataset.robot_poses.covariates) {
+    if (covariate.name == "time") continue;  // it passes by itself
+    if (covariate.name == name) return covariate;
+    names.push_back(covariate.name);
+  }
+  RefuseSetting(name,
+                names.empty() ? "no settings: the dataset has no covariates that can be set"
+                              : fmt::format("one of {}", fmt::join(names, ", ")));
+}
+
+// payload=0:2:5,temperature=18:28, in the columns' own units.
+ChosenSettings SettingsFromFlag(const Dataset& dataset) {
+  ChosenSettings settings;
+  if (FLAGS_settings.empty()) return settings;
+  for (const std::string& entry : Split(FLAGS_settings, ',')) {
+    const std::vector<std::string> sides = Split(entry, '=');
+    if (sides.size() != 2) RefuseSetting(entry, "COLUMN=A:B:..., as payload=0:5");
+    const Covariate& column = ColumnCalled(dataset, sides[0]);
+    if (settings.count(column.name) > 0) RefuseSetting(entry, "each column once");
+    for (const std::string& text : Split(sides[1], ':')) {
+      const std::optional<double> value = ParseDouble(text);
+      if (!value || !std::isfinite(*value)) RefuseSetting(text, "a number");
+      settings[column.name].push_back(column.unit.factor * *value);
+    }
+  }
+  return settings;
 }
 
 bool IsTable(const std::filesystem::path& out) {
@@ -67,11 +116,12 @@ void CheckPool(const PlanOptions& options) {
 int RunPlan(const std::vector<std::string>& files) {
   const std::filesystem::path out = FLAGS_out;
   const bool is_table = IsTable(out);
-  const PlanOptions options = OptionsFromFlags();
+  PlanOptions options = OptionsFromFlags();
   CheckPool(options);
   const Dataset dataset = OpenDataset(files[0], false);
   const Machine machine = ReadMachine(FLAGS_model);
   RequireEffects(machine);
+  options.settings = SettingsFromFlag(dataset);
   OutputFolder folder(out.has_parent_path() ? out.parent_path().string() : ".",
                       "",
                       {{out.filename().string(), std::string(is_table ? kPlanMark : kPlanFormat)}},

@@ -53,13 +53,15 @@ std::vector<std::vector<double>> Spread(const std::vector<std::vector<double>>& 
 
 }  // namespace
 
-std::vector<CovariateGroup> CovariateSettings(const Dataset& dataset) {
+std::vector<CovariateGroup> CovariateSettings(const Dataset& dataset,
+                                              const ChosenSettings& chosen) {
   const RobotPoses& poses = dataset.robot_poses;
   std::vector<std::string> names;
   std::vector<CovariateGroup> groups;
   for (std::size_t column = 0; column < poses.covariates.size(); ++column) {
     if (poses.covariates[column].name == "time") continue;
-    const std::string name = GroupOf(poses.covariates[column].name);
+    const std::string& own = poses.covariates[column].name;
+    const std::string name = chosen.count(own) > 0 ? own + " alone" : GroupOf(own);
     const auto found = std::find(names.begin(), names.end(), name);
     const auto at = static_cast<std::size_t>(found - names.begin());
     if (found == names.end()) names.push_back(name), groups.emplace_back();
@@ -67,6 +69,11 @@ std::vector<CovariateGroup> CovariateSettings(const Dataset& dataset) {
   }
   for (std::size_t g = 0; g < groups.size(); ++g) {
     CovariateGroup& group = groups[g];
+    const auto set = chosen.find(poses.covariates[group.columns[0]].name);
+    if (set != chosen.end()) {
+      for (const double value : set->second) group.settings.push_back({value});
+      continue;
+    }
     group.settings = RowsOf(poses, group.columns);
     if (names[g] == "direction_")
       for (const double side : {-1.0, 1.0}) group.settings.emplace_back(group.columns.size(), side);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "measurement/dataset.h"
@@ -17,6 +19,8 @@ struct CovariateGroup {
 // What a dataset's own table shows can be set: up to five different rows all of them, else those
 // that are lowest or highest in a column and the one in the middle. Legs may also be reached all
 // from above or all from below. `time` passes by itself and is in no group.
-std::vector<CovariateGroup> CovariateSettings(const Dataset& dataset);
+// Columns in `chosen` stand alone and take these values (SI) in their place.
+using ChosenSettings = std::map<std::string, std::vector<double>>;
+std::vector<CovariateGroup> CovariateSettings(const Dataset& dataset, const ChosenSettings& chosen);
 
 }  // namespace hexcal

@@ -171,6 +171,7 @@ class Planner {
                           MakePosePool(reach, options_.pool, options_.seed),
                           options_.poses,
                           plan_.goal == PlanGoal::kRivals ? kSettings : 1,
+                          options_.settings,
                           options_.seed);
     plan_.measured = scene_.measured;
     plan_.pool = static_cast<int>(pool_.base_from_platform.size());

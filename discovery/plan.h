@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "discovery/covariate_settings.h"
 #include "estimator/observations.h"
 #include "measurement/dataset.h"
 #include "model/machine.h"
@@ -25,6 +26,8 @@ struct PlanOptions {
   std::optional<PlanGoal> goal = {};  // empty: rivals where the model has any, else parameters
   int poses = 12;
   int pool = 300;  // poses to choose from; for rivals each with up to three settings of covariates
+  // Of columns of robot_poses (not time), SI; other columns take values that the dataset has seen.
+  ChosenSettings settings = {};
   std::uint64_t seed = 1;
   std::optional<NoiseLevels> noise = {};  // in place of one that is not stated
   // Called with what is done and how much there is to do, and the name of the stage.

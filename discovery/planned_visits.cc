@@ -9,7 +9,6 @@
 #include <random>
 #include <set>
 
-#include "discovery/covariate_settings.h"
 #include "measurement/marker_body.h"
 #include "measurement/tool_pose.h"
 #include "model/data_fault.h"
@@ -139,9 +138,10 @@ PlannedVisits MakeVisitPool(const PlanScene& scene,
                             const std::vector<Pose3d>& poses,
                             int count,
                             int settings,
+                            const ChosenSettings& chosen,
                             std::uint64_t seed) {
   std::mt19937_64 generator(seed);
-  const std::vector<CovariateGroup> groups = CovariateSettings(scene.dataset);
+  const std::vector<CovariateGroup> groups = CovariateSettings(scene.dataset, chosen);
   std::size_t combinations = 1;
   for (const CovariateGroup& group : groups) combinations *= group.settings.size();
   const int each = static_cast<int>(std::min<std::size_t>(combinations, settings));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "discovery/covariate_settings.h"
 #include "discovery/gap_model.h"
 #include "measurement/dataset.h"
 #include "model/machine.h"
@@ -35,6 +36,7 @@ PlannedVisits MakeVisitPool(const PlanScene& scene,
                             const std::vector<Pose3d>& poses,
                             int count,
                             int settings,
+                            const ChosenSettings& chosen,
                             std::uint64_t seed);
 
 // These visits in their order, at the times when they will be.

@@ -17,7 +17,7 @@ constexpr double kMostTurn = M_PI / 6.0;  // rad; joints seldom allow more
 constexpr int kHalvings = 40;
 constexpr double kSlack = 1e-9;  // m: rounding of leg lengths
 // Of the leg Jacobian's determinant at home: below it a pose is near a singular one.
-constexpr double kRegular = 0.1;
+constexpr double kRegular = 0.3;
 
 // The largest part of the way from home that is within reach, to rounding; the way back leads home.
 double PartWithinReach(const Reach& reach, const Vector6d& from_home) {

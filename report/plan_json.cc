@@ -46,7 +46,10 @@ Json PlanObject(const std::string& dataset, const PlanOptions& options, const Pl
   object["format"] = "hexcal/plan/1";
   object["dataset"] = dataset;
   object["for"] = plan.goal == PlanGoal::kRivals ? "rivals" : "parameters";
-  object["settings"] = {{"poses", options.poses}, {"pool", options.pool}, {"seed", options.seed}};
+  object["settings"] = {{"poses", options.poses},
+                        {"pool", options.pool},
+                        {"columns", options.settings},
+                        {"seed", options.seed}};
   object["measured"] = plan.measured;
   object["pool"] = plan.pool;
   object["parameters"] = JsonParameterNames();

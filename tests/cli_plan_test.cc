@@ -6,7 +6,9 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "testing/run_program.h"
@@ -88,6 +90,37 @@ TEST_F(CliPlan, WritesJsonTheSameBytesTwice) {
   folder.Write("mine.csv", "pose,x\n");
   EXPECT_EQ(Plan(kNeurobot, {"--out=mine.csv"}).status, 5);
   EXPECT_EQ(Plan(kNeurobot, {"--out=mine.csv", "--force"}).status, 0);
+}
+
+TEST_F(CliPlan, SetsColumnsAsAsked) {
+  const std::string loaded = std::string(HEXCAL_EXAMPLES) + "/hidden-effect/dataset.yaml";
+  const auto plan = [&](const std::string& settings) {
+    return Plan(loaded, {"--out=set.json", "--quiet", "--settings=" + settings});
+  };
+  ASSERT_EQ(plan("payload=0:7.5,temperature=18").status, 0);
+  const Json result = Json::parse(folder.Read("set.json"));
+  EXPECT_EQ(result["settings"]["columns"]["payload"], (std::vector<double>{0.0, 7.5}));
+  std::set<double> loads;
+  double last = 0.0;
+  for (const Json& pose : result["poses"]) {
+    loads.insert(pose["covariates"]["payload"].get<double>());
+    EXPECT_EQ(pose["covariates"]["temperature"], 18.0);
+    EXPECT_GT(pose["covariates"]["time"].get<double>(), last);
+    last = pose["covariates"]["time"];
+  }
+  EXPECT_EQ(loads, (std::set<double>{0.0, 7.5}));
+  for (const auto& [settings, message] :
+       {std::pair("weight=3", "found 'weight', expected one of temperature, payload"),
+        std::pair("time=3", "found 'time', expected one of temperature, payload"),
+        std::pair("payload", "found 'payload', expected COLUMN=A:B"),
+        std::pair("payload=1:x", "found 'x', expected a number"),
+        std::pair("payload=1,payload=2", "expected each column once")}) {
+    const ProgramResult refused = plan(settings);
+    EXPECT_EQ(refused.status, 2) << settings;
+    EXPECT_THAT(refused.err, HasSubstr(message));
+  }
+  EXPECT_THAT(Plan(kNeurobot, {"--out=a.json", "--settings=payload=1"}).err,
+              HasSubstr("the dataset has no covariates that can be set"));
 }
 
 TEST_F(CliPlan, RefusesWhatItCannotUse) {
