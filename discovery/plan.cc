@@ -114,6 +114,26 @@ class Planner {
     noise_ = EstimateGapNoise(with, problem.trend);
     forms_ = WithRivals(scene_, data, mounts_, noise_);
     if (forms_.rivals.empty()) noise_ = as_stated;
+    WarnOfDescriptions();
+  }
+
+  // No poses can be chosen by what has no law.
+  void WarnOfDescriptions() {
+    for (std::size_t e = 0; e < scene_.effects.size(); ++e) {
+      const Effect& effect = scene_.effects[e];
+      const bool has_rival =
+          std::any_of(forms_.rivals.begin(), forms_.rivals.end(), [e](const RivalModel& rival) {
+            return rival.effect == static_cast<int>(e);
+          });
+      if (effect.name != kUnknownEffect || has_rival || effect.found.count("driver") == 0) continue;
+      plan_.warnings.push_back(
+          fmt::format("{} that follows {} at the {} is a description without a law: no pose is "
+                      "planned to name it; of leg geometry: {}",
+                      effect.name,
+                      effect.found.at("driver"),
+                      effect.found.at("site"),
+                      ExperimentFor("leg_offset", "base_joint_offset")));
+    }
   }
 
   static GapNoise Filled(GapNoise noise, const LinearProblem& problem) {

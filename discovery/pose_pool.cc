@@ -3,9 +3,11 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "model/hexapod.h"
 #include "model/visit.h"
@@ -15,6 +17,7 @@ namespace {
 
 constexpr double kMostTurn = M_PI / 6.0;  // rad; joints seldom allow more
 constexpr int kHalvings = 40;
+constexpr int kMostTries = 20;   // a pose
 constexpr double kSlack = 1e-9;  // m: rounding of leg lengths
 // Of the leg Jacobian's determinant at home: below it a pose is near a singular one.
 constexpr double kRegular = 0.3;
@@ -63,6 +66,22 @@ double RadicalInverse(int i, int base) {
   return value;
 }
 
+// Point i, from 1, of Halton's sequence in the unit cube, shifted around its edges.
+Vector6d HaltonPoint(int i, const Vector6d& shift) {
+  constexpr std::array<int, 6> kBases = {2, 3, 5, 7, 11, 13};
+  Vector6d point = shift;
+  for (int k = 0; k < 6; ++k) {
+    point[k] += RadicalInverse(i, kBases[k]);
+    point[k] -= std::floor(point[k]);
+  }
+  return point;
+}
+
+// Thirds become the two sides and the middle.
+Vector6d OnEdge(const Vector6d& point) {
+  return point.unaryExpr([](double x) { return x < 1.0 / 3.0 ? 0.0 : x < 2.0 / 3.0 ? 0.5 : 1.0; });
+}
+
 }  // namespace
 
 Pose3d Reach::At(const Vector6d& from_home) const {
@@ -102,18 +121,21 @@ Reach ReachOf(const HexapodGeometry* hexapod, const std::vector<Pose3d>& reporte
 }
 
 std::vector<Pose3d> MakePosePool(const Reach& reach, int count, std::uint64_t seed) {
-  constexpr std::array<int, 6> kBases = {2, 3, 5, 7, 11, 13};
   std::mt19937_64 generator(seed);
-  std::array<double, 6> shift;
+  Vector6d shift;
   for (double& s : shift) s = std::ldexp(static_cast<double>(generator() >> 11), -53);
   std::vector<Pose3d> pool;
+  std::array<int, 2> point = {0, 0};  // of Halton's sequence: inside, on the edge
+  std::set<std::array<double, 6>> taken;
   for (int i = 0; i < count; ++i) {
     Vector6d part;
-    for (int k = 0; k < 6; ++k) {
-      part[k] = RadicalInverse(i / 2 + 1, kBases[k]) + shift[k];
-      part[k] -= std::floor(part[k]);
-      // Thirds become the two sides and the middle.
-      if (i % 2 == 1) part[k] = part[k] < 1.0 / 3.0 ? 0.0 : part[k] < 2.0 / 3.0 ? 0.5 : 1.0;
+    // Corners come again; a box without width has nothing else.
+    for (int tries = 0; tries < kMostTries; ++tries) {
+      part = HaltonPoint(++point[i % 2], shift);
+      if (i % 2 == 1) part = OnEdge(part);
+      std::array<double, 6> key;
+      std::copy(part.begin(), part.end(), key.begin());
+      if (taken.insert(key).second) break;
     }
     Vector6d from_home = reach.low + part.cwiseProduct(reach.high - reach.low);
     from_home *= PartWithinReach(reach, from_home);

@@ -432,6 +432,24 @@ TEST(Plan, MarkersOnTheBaseTellADriftFromAMovingTracker) {
   }
 }
 
+TEST(Plan, SaysThatADescriptionHasNoLawToPlanAgainst) {
+  auto rng = SeededByTest();
+  Machine truth = TrueMachine(rng);
+  const Dataset dataset = Measured(PoseDataset(rng, 30, true), truth, 1);
+  truth.pose_map = PoseMap();
+  truth.pose_map->degree = 1;
+  truth.pose_map->reference.translation.z() = testing::kLargeHeight;
+  truth.pose_map->half_width = Vector6d::Ones();
+  truth.pose_map->coefficients = Eigen::MatrixXd::Zero(6, 7);
+  PlanOptions options;
+  options.pool = 60;
+  const Plan plan = MakePlan(dataset, truth, options);
+  EXPECT_EQ(plan.goal, PlanGoal::kParameters);
+  ASSERT_EQ(plan.warnings.size(), 1u);
+  EXPECT_THAT(plan.warnings[0], ::testing::HasSubstr("unknown that follows pose at the platform"));
+  EXPECT_THAT(plan.warnings[0], ::testing::HasSubstr("coordinate measuring machine"));
+}
+
 TEST(Plan, RefusesADatasetThatLacksWhatAnEffectNeeds) {
   auto rng = SeededByTest();
   Dataset dataset = PoseDataset(rng, 12, true);

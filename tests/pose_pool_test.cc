@@ -92,6 +92,14 @@ TEST(PosePool, TheBoxIsFilledEvenly) {
   for (int k = 0; k < 6; ++k) EXPECT_NEAR(below[k], 100.0, 8.0) << k;
 }
 
+TEST(PosePool, NoPoseComesTwice) {
+  auto rng = SeededByTest();
+  const std::vector<Pose3d> pool = MakePosePool(ReachOf(nullptr, Measured(rng, 10)), 1000, 5);
+  ASSERT_EQ(pool.size(), 1000u);
+  for (std::size_t i = 0; i < pool.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) ASSERT_FALSE(AreEqual(pool[i], pool[k])) << i << " " << k;
+}
+
 TEST(PosePool, EqualSeedsGiveEqualPoses) {
   auto rng = SeededByTest();
   const Reach reach = ReachOf(nullptr, Measured(rng, 10));
