@@ -6,6 +6,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "estimator/quantiles.h"
 #include "geometry/linear_algebra.h"
@@ -13,6 +14,7 @@
 namespace hexcal {
 namespace {
 
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr int kNodes = 30;     // along the longest axis
 constexpr int kAzimuths = 12;  // around it, of a quarter turn
 constexpr double kQuarterTurn = 1.5707963267948966;
@@ -52,12 +54,14 @@ double Tail(const Eigen::Vector3d& variances, double length, double dof) {
 }  // namespace
 
 double LengthTail(const Eigen::Matrix3d& covariance, double length, double degrees_of_freedom) {
+  if (!covariance.allFinite()) return kUnknown;
   return Tail(Variances(covariance), length, degrees_of_freedom);
 }
 
 double LengthQuantile(const Eigen::Matrix3d& covariance,
                       double probability,
                       double degrees_of_freedom) {
+  if (!covariance.allFinite()) return kUnknown;
   const Eigen::Vector3d variances = Variances(covariance);
   if (!(variances[0] > 0.0)) return 0.0;
   // In units of the longest axis; the ends are those of an error on a line and of one that is the

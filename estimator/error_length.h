@@ -17,6 +17,7 @@ namespace hexcal {
 double LengthTail(const Eigen::Matrix3d& covariance, double length, double degrees_of_freedom);
 
 // The length, m, that it stays below with this probability, in (0, 1). 0 where there is no error.
+// NaN, as the tail is, for a covariance that is not finite.
 double LengthQuantile(const Eigen::Matrix3d& covariance,
                       double probability,
                       double degrees_of_freedom);

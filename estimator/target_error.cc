@@ -23,14 +23,6 @@ Eigen::Matrix3d Carried(const Matrix36d& jacobian, const ErrorSource& source) {
   return jacobian * variance.asDiagonal() * jacobian.transpose();
 }
 
-double LeastDegreesOfFreedom(const Estimate& estimate) {
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 12; ++i)
-    if (estimate.observability.determined[i])
-      least = std::min(least, estimate.intervals.degrees_of_freedom[i]);
-  return least;
-}
-
 }  // namespace
 
 double TargetCovariance::Rms() const { return std::sqrt(total.trace()); }
@@ -39,14 +31,25 @@ double TargetCovariance::Quantile(double probability) const {
   return LengthQuantile(total, probability, degrees_of_freedom);
 }
 
+double LeastDegreesOfFreedom(const Estimate& estimate) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 12; ++i)
+    // NaN where nothing is left over that could tell.
+    if (estimate.observability.determined[i] && estimate.intervals.degrees_of_freedom[i] > 0.0)
+      least = std::min(least, estimate.intervals.degrees_of_freedom[i]);
+  return least;
+}
+
 Matrix12d CoverageCovariance(const Estimate& estimate) {
   Vector12d widening = Vector12d::Ones();
   for (int i = 0; i < 12; ++i) {
     const double sigma = std::sqrt(estimate.covariance(i, i));
-    const double t =
-        StudentTQuantile(kUpper, std::min(estimate.intervals.degrees_of_freedom[i], kMany));
-    if (estimate.observability.determined[i] && sigma > 0.0)
-      widening[i] = estimate.intervals.half_width[i] / (t * sigma);
+    const double half_width = estimate.intervals.half_width[i];
+    const double dof = estimate.intervals.degrees_of_freedom[i];
+    // Exact data have no intervals to speak of.
+    if (estimate.observability.determined[i] && sigma > 0.0 && dof > 0.0 &&
+        std::isfinite(half_width))
+      widening[i] = half_width / (StudentTQuantile(kUpper, std::min(dof, kMany)) * sigma);
   }
   return widening.asDiagonal() * estimate.covariance * widening.asDiagonal();
 }

@@ -61,6 +61,9 @@ class TargetError {
 // estimate.covariance where few poses told the noise (Kenward and Roger).
 Matrix12d CoverageCovariance(const Estimate& estimate);
 
+// Of the parameters that are determined, the fewest with which one's standard deviation is known.
+double LeastDegreesOfFreedom(const Estimate& estimate);
+
 // d(p_in_a) / d(right perturbation of a_from_b), 3 x 6, axes of a: R [1, -[p]x].
 Eigen::Matrix<double, 3, 6> PointJacobian(const Pose3d& a_from_b, const Eigen::Vector3d& p_in_b);
 

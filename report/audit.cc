@@ -173,7 +173,7 @@ std::vector<BudgetRow> BudgetOf(const Audit& audit, const TargetCovariance& at) 
       "the covariance of the 12 parameters",
       'A',
       at.calibration,
-      audit.estimate.intervals.degrees_of_freedom.minCoeff());
+      LeastDegreesOfFreedom(audit.estimate));
   std::size_t i = 0;
   const Requirements& stated = audit.requirements;
   if (stated.robot)

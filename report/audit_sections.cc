@@ -56,43 +56,6 @@ std::string QuaternionText(const Pose3d& pose) {
       "quaternion (w, x, y, z): {:.9f}, {:.9f}, {:.9f}, {:.9f}", q.w(), q.x(), q.y(), q.z());
 }
 
-void AddOutliers(const Audit& audit, HtmlPage* page) {
-  page->Heading("Outliers");
-  const Estimate& estimate = audit.estimate;
-  if (estimate.outliers.empty())
-    page->Paragraph("No pose contradicts the others (at 1 % for all poses together).");
-  HtmlTable table = {{{"pose"}, {"why"}, {"p", true}, {"used"}}, {}};
-  for (const Outlier& outlier : estimate.outliers) {
-    const bool is_used = estimate.poses[outlier.index].weight > 0.0;
-    table.rows.push_back({outlier.label,
-                          outlier.reason,
-                          ProbabilityText(outlier.p_value),
-                          is_used ? "yes" : "left out"});
-  }
-  if (!table.rows.empty()) page->Table(table);
-  if (!audit.poses.empty()) page->Figure(SmallestChart(audit.poses));
-}
-
-HtmlTable BodyTable(const Audit& audit) {
-  HtmlTable table = {{{"body"},
-                      {"markers", true},
-                      {"noise of a reading, mm", true},
-                      {"misfit of the markers that it makes (FRE), mm", true}},
-                     {}};
-  for (const NamedPoint& point : audit.requirements.points)
-    table.columns.push_back({fmt::format("error at {} (TRE), mm", point.name), true});
-  for (const BodyReport& body : audit.bodies) {
-    std::vector<std::string> row = {body.name,
-                                    fmt::format("{}", body.markers),
-                                    fmt::format("{:.4f}", 1e3 * body.sigma),
-                                    fmt::format("{:.4f}", 1e3 * body.fiducial)};
-    for (std::size_t i = 0; i < audit.requirements.points.size(); ++i)
-      row.push_back(body.at_points.empty() ? "" : fmt::format("{:.4f}", 1e3 * body.at_points[i]));
-    table.rows.push_back(row);
-  }
-  return table;
-}
-
 }  // namespace
 
 void AddResults(const Audit& audit, HtmlPage* page) {
@@ -195,46 +158,6 @@ void AddLinearizedAgainstNonlinear(const Audit& audit, HtmlPage* page) {
       "The length that the error of the point does not exceed with 95 %; noise counts as known.");
 }
 
-void AddGoodnessOfFit(const Audit& audit, HtmlPage* page) {
-  page->Section("Goodness of fit");
-  const Estimate& estimate = audit.estimate;
-  page->Paragraph(fmt::format(
-      "Chi-square of what is left over: {:.5g} with {} degrees of freedom (noise scale, or Birge "
-      "ratio, {:.3f}). {}",
-      estimate.chi_square,
-      estimate.degrees_of_freedom,
-      estimate.noise_scale,
-      !audit.global.is_stated
-          ? std::string("The noise was estimated from it, so that there is nothing to test.")
-          : fmt::format(
-                "Expected with 95 %: {:.5g} to {:.5g}. {}",
-                audit.global.low,
-                audit.global.high,
-                audit.global.is_too_large
-                    ? "There is more than the stated noise explains: the noise is larger, or "
-                      "the model misses something (hexcal discover looks for it)."
-                : audit.global.is_too_small
-                    ? "There is less: the stated noise is too large, and so are the "
-                      "uncertainties."
-                    : "The residuals agree with the stated noise.")));
-  page->Paragraph(fmt::format("RMS of what is left over: {} and {} (RMSPE, RMSOE).",
-                              SizeText(estimate.rmspe, "m"),
-                              SizeText(estimate.rmsoe, "rad")));
-  page->Note(
-      "A good fit alone says little about the error of a point of the tool: that is in the "
-      "sections "
-      "on the budget and on the workspace.");
-  page->Figures(LeftOverCharts(estimate));
-  page->Figure(HistogramChart(estimate));
-  AddOutliers(audit, page);
-  if (audit.bodies.empty()) return;
-  page->Heading("What one reading of the markers is worth");
-  page->Table(BodyTable(audit));
-  page->Note(
-      "RMS, for markers that are read with the same noise along all axes (Fitzpatrick, West and "
-      "Maurer 1998). The misfit of the markers does not tell the error elsewhere.");
-}
-
 void AddBudget(const Audit& audit, HtmlPage* page) {
   page->Section("Uncertainty budget");
   page->Paragraph(
@@ -275,26 +198,6 @@ void AddBudget(const Audit& audit, HtmlPage* page) {
       "Type A: evaluated by statistics of observations; type B: otherwise (JCGM 100:2008). "
       "Calibration "
       "counts as type A although stated noise enters its weights.");
-}
-
-void AddValidation(const Audit& audit, HtmlPage* page) {
-  page->Section("Validation on held-out poses");
-  const HeldOutTest& held = audit.held_out;
-  if (held.poses == 0) return page->Paragraph("There is nothing to validate with.");
-  page->Paragraph(
-      fmt::format("Each pose was predicted from all the others: {} RMS where noise and prediction "
-                  "explain {}, and "
-                  "{} where they explain {}. {} of {} poses lie within the 95 % region of their "
-                  "prediction; of a "
-                  "model that lacks nothing it would be {} or more in 99 of 100 cases.",
-                  SizeText(held.rms_position, "m"),
-                  SizeText(held.expected_position, "m"),
-                  SizeText(held.rms_orientation, "rad"),
-                  SizeText(held.expected_orientation, "rad"),
-                  held.inside,
-                  held.poses,
-                  held.fewest));
-  page->Figure(HeldOutChart(audit.poses));
 }
 
 void AddAccuracy(const Audit& audit, HtmlPage* page) {

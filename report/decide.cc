@@ -19,8 +19,8 @@ constexpr double kCoverageFactor = 2.0;
 // The degrees of freedom with which the calibration's covariance is known: where the noise was
 // stated, those with which the residuals confirm it.
 double FreedomOf(const Audit& audit) {
-  const double dof = audit.estimate.intervals.degrees_of_freedom.minCoeff();
-  return std::min(dof, static_cast<double>(audit.estimate.degrees_of_freedom));
+  return std::min(LeastDegreesOfFreedom(audit.estimate),
+                  static_cast<double>(audit.estimate.degrees_of_freedom));
 }
 
 // Of a root of a sum of variances, relative: by the shares that are known by so many degrees of
@@ -131,6 +131,11 @@ Decision Decide(const Audit& audit,
   decision.guard =
       kCoverageFactor * decision.value *
       std::hypot(RelativeUncertainty(at, audit, error), OfNonlinearity(audit, requirement.point));
+  if (!(decision.value >= 0.0) || !std::isfinite(decision.guard)) {
+    decision.reason =
+        fmt::format("How far the error of {} may go could not be computed.", point.name);
+    return decision;
+  }
   if (decision.value + decision.guard <= requirement.limit && audit.doubts.empty())
     decision.compliance = Compliance::kPass;
   if (decision.value - decision.guard > requirement.limit && !audit.global.is_too_small)

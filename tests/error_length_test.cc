@@ -33,6 +33,13 @@ TEST(ErrorLength, IsStudentsAndFishersWhereTheCovarianceIsEstimated) {
   EXPECT_NEAR(LengthQuantile(Turned({1.0, 1.0, 1.0}), 0.95, 10.0), std::sqrt(3 * 3.708265), 1e-5);
 }
 
+TEST(ErrorLength, OfAnUnknownCovarianceIsUnknown) {
+  Eigen::Matrix3d c = Eigen::Matrix3d::Identity();
+  c(1, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(LengthQuantile(c, 0.95, kKnown)));
+  EXPECT_TRUE(std::isnan(LengthTail(c, 1.0, kKnown)));
+}
+
 TEST(ErrorLength, OfNoErrorIsZeroAndScalesWithIt) {
   EXPECT_EQ(LengthQuantile(Eigen::Matrix3d::Zero(), 0.95, kKnown), 0.0);
   const Eigen::Matrix3d c = Turned({1.0, 0.3, 0.05});

@@ -119,6 +119,14 @@ TEST(TargetError, IsInvariantUnderMotionOfTheWorld) {
   }
 }
 
+// Data without noise: an error of rounding, and of what else is stated.
+TEST(TargetError, OfExactDataIsFinite) {
+  const Estimate estimate = Calibrate(testing::UnknownNoise(testing::PaperObservations()), {}, {});
+  const TargetCovariance at = TargetError(estimate, {{"a", SourceSite::kPoint, 1e-4}}).At({}, kTip);
+  EXPECT_LT(std::sqrt(at.calibration.trace()), 1e-9);
+  EXPECT_NEAR(at.Quantile(0.95), 2.795483e-4, 1e-9);
+}
+
 // How often the true error is shorter than the stated 95 % length, over whole calibrations.
 class Coverage : public ::testing::TestWithParam<bool> {};
 
