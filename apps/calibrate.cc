@@ -19,15 +19,18 @@
 #include "config/input_error.h"
 #include "estimator/calibrate_grown.h"
 #include "model/machine.h"
+#include "report/calibrate_html.h"
+#include "report/html/page.h"
 #include "report/result_table.h"
 
 namespace hexcal {
 namespace {
 
-const std::vector<OutputFile>& ResultFiles() {
-  static const std::vector<OutputFile> files = {{"result.json", std::string(kResultMark)},
-                                                {"model.yaml", std::string(kModelMark)},
-                                                {"run.json", std::string(kRunMark)}};
+std::vector<OutputFile> ResultFiles() {
+  std::vector<OutputFile> files = {{"result.json", std::string(kResultMark)},
+                                   {"model.yaml", std::string(kModelMark)},
+                                   {"run.json", std::string(kRunMark)}};
+  if (FLAGS_report) files.push_back({"report.html", HtmlPage::Mark("calibrate")});
   return files;
 }
 
@@ -140,9 +143,16 @@ class CalibrateRun {
     const ResultHeader header =
         HeaderOf(job->dataset.name, options_, IsByMarkersHere(job->dataset));
     const Machine machine = outcome.grown ? *outcome.grown : MachineOf(job->dataset, estimate);
+    const RunRecord record = RecordOf("calibrate", job->dataset, outcome.seconds, threads_);
     job->folder.Write("model.yaml", WriteMachine(machine));
-    job->folder.Write("run.json",
-                      RunJson(RecordOf("calibrate", job->dataset, outcome.seconds, threads_)));
+    job->folder.Write("run.json", RunJson(record));
+    if (FLAGS_report)
+      job->folder.Write(
+          "report.html",
+          CalibrateHtml(header,
+                        record,
+                        estimate,
+                        MakeScene(job->dataset, MakeObservations(job->dataset), estimate)));
     job->folder.Write("result.json", ResultJson(header, estimate, machine.effects));
     if (!estimate.IsTrustworthy()) ++untrusted_;
     PrintNewWarnings(job->dataset, estimate.warnings, "result.json");

@@ -29,6 +29,7 @@ const Command kCalibrate = {
     "mounts. Exit status 4: there are results, but the data do not determine all 12 parameters or "
     "the solver did not converge.",
     {{"out", true, "DIR", "The results of a dataset go to DIR/<name>/."},
+     {"report"},
      {"model", false, {}, "A model whose effects are estimated along with base and tool."},
      {"solver"},
      {"residual"},

@@ -163,6 +163,7 @@ DEFINE_string(base_frame, "base", "What they call the base of the robot.");
 DEFINE_string(platform_frame, "platform", "What they call its platform.");
 DEFINE_string(tool_frame, "tool", "What they call the frame of the tool's markers.");
 DEFINE_int32(threads, 0, "Threads to use. The results do not depend on it.");
+DEFINE_bool(report, false, "Write report.html, too: the result with pictures, for the browser.");
 DEFINE_bool(json, false, "Print the results as JSON instead, one object a line.");
 DEFINE_bool(quiet, false, "Print no results and no progress; warnings and errors stay.");
 DEFINE_bool(force, false, "Replace files that hexcal did not write.");
@@ -186,6 +187,7 @@ std::vector<FlagSpec> MakeSpecs() {
   std::vector<FlagSpec> specs = {
       {"out", kResults, "PATH", ""},
       {"dataset", kResults, "FILE", ""},
+      {"report", kResults, "", ""},
       {"json", kResults, "", ""},
       {"quiet", kResults, "", ""},
       {"force", kResults, "", ""},

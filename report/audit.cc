@@ -17,7 +17,6 @@ namespace {
 
 constexpr double kProbability = 0.95;
 constexpr double kAlpha = 0.01, kPower = 0.8;  // of the smallest errors that would be found
-constexpr double kStrong = 0.9;                // a correlation that is listed
 
 // The robot's own error as a source: from the requirement file, else from the dataset.
 std::optional<StatedSource> RobotOf(const AuditInput& input) {
@@ -84,19 +83,6 @@ HeldOutTest HeldOutTestOf(const std::vector<PoseCheck>& poses) {
   test.rms_position = squares[0], test.expected_position = squares[1];
   test.rms_orientation = squares[2], test.expected_orientation = squares[3];
   return test;
-}
-
-std::vector<Correlation> StrongCorrelations(const Estimate& estimate) {
-  std::vector<Correlation> strong;
-  const auto& determined = estimate.observability.determined;
-  for (int a = 0; a < 12; ++a)
-    for (int b = a + 1; b < 12; ++b) {
-      const Matrix12d& c = estimate.covariance;
-      const double value = c(a, b) / std::sqrt(c(a, a) * c(b, b));
-      if (determined[a] && determined[b] && std::abs(value) > kStrong)
-        strong.push_back({a, b, value});
-    }
-  return strong;
 }
 
 std::vector<BodyReport> BodiesOf(const Dataset& dataset,
@@ -278,6 +264,7 @@ Audit MakeAudit(AuditInput input) {
   for (const StatedSource& stated : audit.requirements.sources)
     audit.sources.push_back(stated.source);
   audit.workspace = MakeWorkspace(audit.requirements.workspace, input.observations);
+  audit.scene = MakeScene(input.dataset, input.observations, audit.estimate);
   audit.global = GlobalTestOf(audit.estimate);
   audit.correlations = StrongCorrelations(audit.estimate);
   audit.bodies = BodiesOf(input.dataset, audit.estimate, audit);

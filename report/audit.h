@@ -9,9 +9,11 @@
 #include "estimator/pose_check.h"
 #include "estimator/target_check.h"
 #include "report/accuracy_map.h"
+#include "report/correlation.h"
 #include "report/earlier_result.h"
 #include "report/requirement.h"
 #include "report/result_json.h"
+#include "report/scene.h"
 #include "report/workspace.h"
 
 namespace hexcal {
@@ -79,11 +81,6 @@ struct HeldOutTest {
   int fewest = 0;  // so many at least with a probability of 99 %, were all well
 };
 
-struct Correlation {
-  int a = 0, b = 0;  // parameters
-  double value = 0.0;
-};
-
 // What has changed since an earlier calibration.
 struct Change {
   EarlierResult earlier;
@@ -104,6 +101,7 @@ struct Audit {
   bool robot_is_stated = false;
   Estimate estimate;
   Comparison comparison;
+  Scene scene;
   GlobalTest global;
   HeldOutTest held_out;
   std::vector<PoseCheck> poses;

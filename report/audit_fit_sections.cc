@@ -4,6 +4,7 @@
 #include "report/audit_sections.h"
 #include "report/estimate_charts.h"
 #include "report/quantity.h"
+#include "report/scene.h"
 
 namespace hexcal {
 namespace {
@@ -77,6 +78,7 @@ void AddGoodnessOfFit(const Audit& audit, HtmlPage* page) {
       "sections "
       "on the budget and on the workspace.");
   page->Figures(LeftOverCharts(estimate));
+  page->Figure(SceneChart(audit.scene));
   page->Figure(HistogramChart(estimate));
   AddOutliers(audit, page);
   if (audit.bodies.empty()) return;

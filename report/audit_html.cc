@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "report/audit_sections.h"
+#include "report/estimate_sections.h"
 #include "report/html/page.h"
 #include "report/quantity.h"
 
@@ -138,23 +139,6 @@ void AddModel(const Audit& audit, HtmlPage* page) {
            : "Nothing is stated of the robot's own error; it is left out, and nothing passes."});
 }
 
-void AddReproduce(const RunRecord& record, const Audit& audit, HtmlPage* page) {
-  if (!audit.estimate.warnings.empty()) {
-    page->Section("Warnings");
-    page->List(audit.estimate.warnings);
-  }
-  page->Section("How to reproduce");
-  page->Paragraph(
-      "The same build, input and seed give the same result.json, model.yaml and audit.json, which "
-      "lie "
-      "beside this report and have every number of it.");
-  HtmlTable settings = {{{"setting"}, {"value"}}, {}};
-  for (const auto& [name, value] : record.settings)
-    if (!value.empty()) settings.rows.push_back({name, value});
-  page->Table(settings);
-  page->Code(record.version);
-}
-
 void AddGlossary(HtmlPage* page) {
   page->Section("Words");
   page->List(
@@ -180,14 +164,14 @@ std::string AuditHtml(const AuditIdentity& identity, const RunRecord& record, co
   AddIdentification(identity, record, audit, &page);
   AddMeasurand(audit, &page);
   AddModel(audit, &page);
-  AddResults(audit, &page);
+  AddMounts(audit.estimate, &page);
   AddLinearizedAgainstNonlinear(audit, &page);
   AddGoodnessOfFit(audit, &page);
   AddBudget(audit, &page);
   AddValidation(audit, &page);
   AddAccuracy(audit, &page);
   AddChange(audit, &page);
-  AddReproduce(record, audit, &page);
+  AddReproduction(record, audit.estimate.warnings, "result.json, model.yaml and audit.json", &page);
   AddGlossary(&page);
   return page.Html();
 }

@@ -6,89 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/rotation_angles.h"
 #include "report/accuracy_charts.h"
 #include "report/estimate_charts.h"
 #include "report/quantity.h"
-#include "report/result_table.h"
 
 namespace hexcal {
 namespace {
 
 constexpr const char* kNumbers[6] = {"x, mm", "y, mm", "z, mm", "rx, mrad", "ry, mrad", "rz, mrad"};
 
-// Mounts as the six numbers of Eq. (2), each with one standard deviation.
-HtmlTable MountTable(const Audit& audit, bool is_base) {
-  const Estimate& estimate = audit.estimate;
-  const Pose3d& pose =
-      is_base ? estimate.mounts.world_from_base : estimate.mounts.platform_from_tool;
-  const int first = is_base ? 0 : 6;
-  const Vector6d values = VectorFromPose(pose);
-  const Vector6d sigmas = PoseVectorSigma(pose, estimate.covariance.block<6, 6>(first, first));
-  HtmlTable table = {{{""},
-                      {"value of Eq. (2)", true},
-                      {"its standard uncertainty", true},
-                      {"along own axis: standard", true},
-                      {"expanded, 95 %", true},
-                      {"degrees of freedom", true}},
-                     {}};
-  for (int i = 0; i < 6; ++i) {
-    const int k = first + i;
-    const bool is_known = estimate.observability.determined[k];
-    const double dof = estimate.intervals.degrees_of_freedom[k];
-    const auto number = [&](double value) {
-      return is_known && std::isfinite(value) ? fmt::format("{:.4f}", 1e3 * value)
-                                              : "not determined";
-    };
-    table.rows.push_back({kNumbers[i],
-                          fmt::format("{:.4f}", 1e3 * values[i]),
-                          number(sigmas[i]),
-                          number(std::sqrt(estimate.covariance(k, k))),
-                          number(estimate.intervals.half_width[k]),
-                          std::isfinite(dof) ? fmt::format("{:.0f}", dof) : "∞"});
-  }
-  return table;
-}
-
-std::string QuaternionText(const Pose3d& pose) {
-  const Eigen::Quaterniond& q = pose.rotation;
-  return fmt::format(
-      "quaternion (w, x, y, z): {:.9f}, {:.9f}, {:.9f}, {:.9f}", q.w(), q.x(), q.y(), q.z());
-}
-
 }  // namespace
-
-void AddResults(const Audit& audit, HtmlPage* page) {
-  page->Section("Results");
-  page->Heading("Base in world, T_B^W");
-  page->Table(MountTable(audit, true));
-  page->Note(QuaternionText(audit.estimate.mounts.world_from_base));
-  page->Heading("Tool on platform, T_T^A");
-  page->Table(MountTable(audit, false));
-  page->Note(QuaternionText(audit.estimate.mounts.platform_from_tool));
-  page->Note(
-      "Values and the first uncertainty are of the six numbers of Eq. (2). The others are of a "
-      "small motion along and about the mount's own axes, as in the covariance of result.json. "
-      "Expanded: the truth lies within it with 95 %, each number by itself (Student's t).");
-  page->Figure(CorrelationChart(audit.estimate));
-  std::vector<std::string> strong;
-  for (const Correlation& c : audit.correlations)
-    strong.push_back(
-        fmt::format("{} and {}: {:.3f}", kParameters[c.a].name, kParameters[c.b].name, c.value));
-  page->Heading("Strong correlations and weak directions");
-  if (strong.empty())
-    page->Paragraph("No two parameters are correlated by more than 0.9.");
-  else
-    page->List(strong);
-  const Observability& observability = audit.estimate.observability;
-  if (observability.weak_directions.empty())
-    page->Paragraph(fmt::format(
-        "The poses determine all 12 parameters; condition number of the scaled Jacobian {:.3g}.",
-        observability.condition_number));
-  else
-    page->Paragraph("The poses do not determine:");
-  page->List(observability.weak_directions);
-}
 
 void AddLinearizedAgainstNonlinear(const Audit& audit, HtmlPage* page) {
   page->Section("Linearized against nonlinear");

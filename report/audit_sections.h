@@ -7,7 +7,6 @@
 namespace hexcal {
 
 // The sections of an audit's report that are about numbers.
-void AddResults(const Audit& audit, HtmlPage* page);
 void AddLinearizedAgainstNonlinear(const Audit& audit, HtmlPage* page);
 void AddGoodnessOfFit(const Audit& audit, HtmlPage* page);
 void AddBudget(const Audit& audit, HtmlPage* page);

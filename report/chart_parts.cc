@@ -73,6 +73,11 @@ Json OrderOf(std::size_t count) {
   return list;
 }
 
+std::size_t StrideOf(std::size_t count) {
+  constexpr std::size_t kMostDrawn = 2000;
+  return (count + kMostDrawn - 1) / kMostDrawn + (count == 0);
+}
+
 Json LabelsOf(const std::vector<PoseGap>& poses) {
   Json list = Json::array();
   for (const PoseGap& pose : poses) list.push_back(EscapeLabel(pose.label));

@@ -35,6 +35,9 @@ nlohmann::ordered_json Level(const char* name, double y, const char* colour);
 nlohmann::ordered_json DivergingColours(double largest, const char* unit);
 
 nlohmann::ordered_json OrderOf(std::size_t count);  // 1, 2, 3...
+
+// Every such pose of so many is drawn, so that a page of a million poses still opens.
+std::size_t StrideOf(std::size_t count);
 nlohmann::ordered_json LabelsOf(const std::vector<PoseGap>& poses);
 
 }  // namespace hexcal

@@ -19,16 +19,22 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMilli = 1e3;
 
-Json LabelsOfPoses(const Estimate& estimate) {
-  Json labels = Json::array();
-  for (const PoseResult& pose : estimate.poses) labels.push_back(EscapeLabel(pose.label));
-  return labels;
-}
+// Those that are drawn, in order of visit.
+struct Drawn {
+  Json order = Json::array(), labels = Json::array();
+  std::string note;  // of those that are not
+};
 
-Json LabelsOfChecks(const std::vector<PoseCheck>& poses) {
-  Json labels = Json::array();
-  for (const PoseCheck& pose : poses) labels.push_back(EscapeLabel(pose.label));
-  return labels;
+template <typename Pose>
+Drawn DrawnOf(const std::vector<Pose>& poses) {
+  Drawn drawn;
+  const std::size_t stride = StrideOf(poses.size());
+  for (std::size_t i = 0; i < poses.size(); i += stride) {
+    drawn.order.push_back(i + 1);
+    drawn.labels.push_back(EscapeLabel(poses[i].label));
+  }
+  if (stride > 1) drawn.note = fmt::format(" One pose in {} is drawn.", stride);
+  return drawn;
 }
 
 Chart AxesChart(const Estimate& estimate, int first, const char* title, const char* unit) {
@@ -42,13 +48,16 @@ Chart AxesChart(const Estimate& estimate, int first, const char* title, const ch
   chart.good =
       "a structureless band about zero; waves, trends, jumps or single far points mean that the "
       "model misses something (hexcal discover looks for it).";
-  const Json order = OrderOf(estimate.poses.size()), labels = LabelsOfPoses(estimate);
+  const Drawn drawn = DrawnOf(estimate.poses);
+  const std::size_t stride = StrideOf(estimate.poses.size());
+  chart.shows += drawn.note;
   chart.table = {{{"pose"}}, {}};
   for (int k = first; k < first + 3; ++k) {
     Json values = Json::array();
-    for (const PoseResult& pose : estimate.poses) values.push_back(kMilli * pose.residual[k]);
+    for (std::size_t i = 0; i < estimate.poses.size(); i += stride)
+      values.push_back(kMilli * estimate.poses[i].residual[k]);
     const int panel = k - first + 1;
-    Json trace = DotTrace(title, order, values, labels, false, panel);
+    Json trace = DotTrace(title, drawn.order, values, drawn.labels, false, panel);
     trace["showlegend"] = false;
     chart.data.push_back(trace);
     chart.layout[AxisKey("yaxis", panel)] = Axis(fmt::format("{}, {}", kAxes[k], unit), false);
@@ -59,7 +68,8 @@ Chart AxesChart(const Estimate& estimate, int first, const char* title, const ch
   }
   chart.layout["grid"] = {{"rows", 3}, {"columns", 1}, {"pattern", "independent"}, {"ygap", 0.12}};
   chart.layout["height"] = 500;
-  for (const PoseResult& pose : estimate.poses) {
+  for (std::size_t i = 0; i < estimate.poses.size(); i += stride) {
+    const PoseResult& pose = estimate.poses[i];
     std::vector<std::string> row = {pose.label};
     for (int k = first; k < first + 3; ++k)
       row.push_back(fmt::format("{:.4f}", kMilli * pose.residual[k]));
@@ -184,14 +194,17 @@ Chart HeldOutChart(const std::vector<PoseCheck>& poses) {
   chart.table = {
       {{"pose"}, {"squared sigmas", true}, {"position, mm", true}, {"orientation, mrad", true}},
       {}};
-  for (const PoseCheck& pose : poses) {
+  const Drawn drawn = DrawnOf(poses);
+  chart.shows += drawn.note;
+  for (std::size_t i = 0; i < poses.size(); i += StrideOf(poses.size())) {
+    const PoseCheck& pose = poses[i];
     values.push_back(pose.squared);
     chart.table.rows.push_back({pose.label,
                                 fmt::format("{:.2f}", pose.squared),
                                 fmt::format("{:.4f}", kMilli * pose.held_out.head<3>().norm()),
                                 fmt::format("{:.4f}", kMilli * pose.held_out.tail<3>().norm())});
   }
-  Json trace = DotTrace("poses", OrderOf(poses.size()), values, LabelsOfChecks(poses), false, 1);
+  Json trace = DotTrace("poses", drawn.order, values, drawn.labels, false, 1);
   chart.data = Json::array({trace});
   chart.layout = {{"height", 340},
                   {"shapes", Json::array({Level("95 %", limit, "@floor")})},
@@ -214,7 +227,10 @@ Chart SmallestChart(const std::vector<PoseCheck>& poses) {
   Json position = Json::array(), orientation = Json::array();
   chart.table = {
       {{"pose"}, {"position, mm", true}, {"orientation, mrad", true}, {"redundancy", true}}, {}};
-  for (const PoseCheck& pose : poses) {
+  const Drawn drawn = DrawnOf(poses);
+  chart.shows += drawn.note;
+  for (std::size_t i = 0; i < poses.size(); i += StrideOf(poses.size())) {
+    const PoseCheck& pose = poses[i];
     position.push_back(kMilli * pose.smallest_position);
     orientation.push_back(kMilli * pose.smallest_orientation);
     chart.table.rows.push_back({pose.label,
@@ -222,9 +238,9 @@ Chart SmallestChart(const std::vector<PoseCheck>& poses) {
                                 fmt::format("{:.3f}", kMilli * pose.smallest_orientation),
                                 fmt::format("{:.2f}", pose.redundancy)});
   }
-  const Json order = OrderOf(poses.size()), labels = LabelsOfChecks(poses);
-  chart.data = Json::array({DotTrace("position, mm", order, position, labels, false, 1),
-                            DotTrace("orientation, mrad", order, orientation, labels, true, 1)});
+  chart.data =
+      Json::array({DotTrace("position, mm", drawn.order, position, drawn.labels, false, 1),
+                   DotTrace("orientation, mrad", drawn.order, orientation, drawn.labels, true, 1)});
   chart.layout = {
       {"height", 340}, {"xaxis", OpenAxis("order of visit")}, {"yaxis", Axis("mm and mrad", true)}};
   return chart;

@@ -14,8 +14,8 @@ namespace hexcal {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::StartsWith;
 
@@ -24,6 +24,16 @@ int Count(const std::string& text, const std::string& part) {
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
     ++count;
   return count;
+}
+
+std::string Before(const std::string& text, const char* part) {
+  return text.substr(0, text.find(part));
+}
+
+// Drawing in software is slow, and said to be; nothing else is said.
+void ExpectQuiet(const std::vector<std::string>& console) {
+  for (const std::string& line : console)
+    EXPECT_THAT(line, AnyOf(HasSubstr("Performance"), HasSubstr("willReadFrequently")));
 }
 
 // With a name that would do harm wherever a file may have one.
@@ -53,10 +63,11 @@ TEST(AuditInBrowser, IsDrawnSaysWhatItsJsonSaysAndItsNamesAreOnlyNames) {
   record.settings = {{hostile, hostile}};
   const AuditIdentity identity = {{{hostile, "00"}}, "11"};
   const std::string html = AuditHtml(identity, record, audit);
-  const std::string dom = browser.Dom(html);
-  EXPECT_THAT(browser.Console(), IsEmpty());
+  // The libraries stand behind the page and have tags in their texts.
+  const std::string dom = Before(browser.Dom(html), "plotly.js (cartesian");
+  ExpectQuiet(browser.Console());
   const int pictures = Count(html, "class=\"plot\"");
-  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 10);
+  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 11);
   EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), pictures);
   const auto json = nlohmann::json::parse(AuditJson(identity, audit));
   EXPECT_THAT(dom,
@@ -66,7 +77,7 @@ TEST(AuditInBrowser, IsDrawnSaysWhatItsJsonSaysAndItsNamesAreOnlyNames) {
                     HasSubstr("&lt;img")));
   EXPECT_LT(html.size(), std::size_t{8} << 20);
   EXPECT_THAT(browser.Pdf(html).substr(0, 8), StartsWith("%PDF"));
-  EXPECT_THAT(browser.Console(), IsEmpty());
+  ExpectQuiet(browser.Console());
 }
 
 }  // namespace

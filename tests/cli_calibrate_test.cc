@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -222,6 +223,23 @@ TEST_F(CliCalibrate, JsonIsAnObjectALineAndNothingElse) {
   for (std::string line; std::getline(lines, line);)
     names.push_back(nlohmann::json::parse(line)["dataset"]);
   EXPECT_EQ(names, (std::vector<std::string>{"good", "other"}));
+}
+
+TEST_F(CliCalibrate, AReportIsWrittenWhereItIsAskedFor) {
+  ASSERT_EQ(Calibrate({"--out=out"}).status, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder.Path("out/good/report.html")));
+  ASSERT_EQ(Calibrate({"--out=out", "--report"}).status, 0);
+  const std::string once = folder.Read("out/good/report.html");
+  EXPECT_THAT(once, HasSubstr("id=\"verdict\"><strong>calibrated</strong>"));
+  ASSERT_EQ(Calibrate({"--out=out", "--report"}).status, 0);
+  EXPECT_EQ(folder.Read("out/good/report.html"), once);
+  Make("turn", kOneAxisRows);
+  EXPECT_EQ(Calibrate({"--out=out", "--report"}, "turn").status, 4);
+  EXPECT_THAT(folder.Read("out/turn/report.html"), HasSubstr("<strong>not determined</strong>"));
+  Make("exact", kGoodRows, "0");
+  EXPECT_EQ(Calibrate({"--out=out", "--report"}, "exact").status, 0);
+  folder.Write("out/good/report.html", "<html>mine</html>");
+  EXPECT_EQ(Calibrate({"--out=out", "--report"}).status, 5);
 }
 
 TEST_F(CliCalibrate, QuietPrintsNothing) {

@@ -7,12 +7,12 @@
     light: {
       ink: "#1b1f24", muted: "#57606a", grid: "#e1e5ea", paper: "#ffffff", clear: "rgba(0,0,0,0)",
       before: "#d55e00", after: "#0072b2", floor: "#1b1f24", other: "#98a2ad", chosen: "#0072b2",
-      low: "#0072b2", middle: "#f7f7f7", high: "#d55e00"
+      good: "#0b6e4f", low: "#0072b2", middle: "#f7f7f7", high: "#d55e00"
     },
     dark: {
       ink: "#e6e8eb", muted: "#9ba3ad", grid: "#2d343c", paper: "#14181d", clear: "rgba(0,0,0,0)",
       before: "#f0883e", after: "#58b4f5", floor: "#ffffff", other: "#6e7781", chosen: "#58b4f5",
-      low: "#58b4f5", middle: "#1d2229", high: "#f0883e"
+      good: "#4cc38a", low: "#58b4f5", middle: "#1d2229", high: "#f0883e"
     }
   };
   const kPrintWidth = 660;

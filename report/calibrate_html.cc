@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/calibrate_html.h"
+
+#include <fmt/format.h>
+
+#include "report/estimate_charts.h"
+#include "report/estimate_sections.h"
+#include "report/quantity.h"
+
+namespace hexcal {
+namespace {
+
+void AddVerdict(const Estimate& estimate, HtmlPage* page) {
+  if (!estimate.converged)
+    return page->Verdict(Tone::kBad, "verdict", "not converged", estimate.message);
+  if (!estimate.IsTrustworthy())
+    return page->Verdict(Tone::kBad,
+                         "verdict",
+                         "not determined",
+                         "The poses do not determine all 12 parameters: " +
+                             estimate.observability.weak_directions[0] + ".");
+  page->Verdict(Tone::kGood,
+                "verdict",
+                "calibrated",
+                fmt::format("Base and tool are determined; {} and {} RMS are left over.",
+                            SizeText(estimate.rmspe, "m"),
+                            SizeText(estimate.rmsoe, "rad")));
+}
+
+void AddFit(const ResultHeader& header,
+            const Estimate& estimate,
+            const Scene& scene,
+            HtmlPage* page) {
+  page->Section("What is left over");
+  page->Paragraph(
+      fmt::format("Chi-square {:.5g} with {} degrees of freedom, noise scale {:.3f}; noise of a "
+                  "measured pose {} and {} a coordinate, {}.",
+                  estimate.chi_square,
+                  estimate.degrees_of_freedom,
+                  estimate.noise_scale,
+                  SizeText(estimate.noise.position, "m"),
+                  SizeText(estimate.noise.orientation, "rad"),
+                  estimate.noise.estimated ? "estimated from it" : "as stated"));
+  page->Figures(LeftOverCharts(estimate));
+  page->Figure(SceneChart(scene));
+  page->Figures(
+      {HistogramChart(estimate), ConvergenceChart(estimate.iterations, header.solver + " solver")});
+  if (estimate.outliers.empty()) return;
+  page->Heading("Poses that the others contradict");
+  HtmlTable table = {{{"pose"}, {"why"}, {"p", true}, {"used"}}, {}};
+  for (const Outlier& outlier : estimate.outliers)
+    table.rows.push_back({outlier.label,
+                          outlier.reason,
+                          ProbabilityText(outlier.p_value),
+                          estimate.poses[outlier.index].weight > 0.0 ? "yes" : "left out"});
+  page->Table(table);
+}
+
+}  // namespace
+
+std::string CalibrateHtml(const ResultHeader& header,
+                          const RunRecord& record,
+                          const Estimate& estimate,
+                          const Scene& scene) {
+  HtmlPage page("calibrate",
+                "Calibration: " + header.dataset,
+                fmt::format("{} poses · where base and tool are, and how sure that is",
+                            estimate.poses.size()));
+  AddVerdict(estimate, &page);
+  AddMounts(estimate, &page);
+  AddFit(header, estimate, scene, &page);
+  AddReproduction(record, estimate.warnings, "result.json and model.yaml", &page);
+  return page.Html();
+}
+
+}  // namespace hexcal

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "report/result_json.h"
+#include "report/run_record.h"
+#include "report/scene.h"
+
+namespace hexcal {
+
+// report.html of a calibration: one file that opens offline (report/html/page.h). No times.
+std::string CalibrateHtml(const ResultHeader& header,
+                          const RunRecord& record,
+                          const Estimate& estimate,
+                          const Scene& scene);
+
+}  // namespace hexcal

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/scene.h"
+
+#include <fmt/format.h>
+#include <glog/logging.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimator/quantiles.h"
+#include "estimator/target_error.h"
+#include "geometry/linear_algebra.h"
+#include "report/chart_parts.h"
+#include "report/html/escape.h"
+
+namespace hexcal {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Points = std::vector<Eigen::Vector3d>;
+
+constexpr double kMilli = 1e3;
+constexpr double kTurn = 6.283185307179586;
+constexpr int kMeridians = 24, kCircles = 12;
+// The parts of the scene that the longest arrow and the ellipsoid are drawn at.
+constexpr double kArrowPart = 0.1, kEllipsoidPart = 0.03;
+
+std::size_t MiddleOf(const Observations& observations) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Observation& o : observations.items) mean += o.base_from_platform.translation;
+  mean /= static_cast<double>(observations.items.size());
+  const auto nearest =
+      std::min_element(observations.items.begin(),
+                       observations.items.end(),
+                       [&](const Observation& a, const Observation& b) {
+                         return (a.base_from_platform.translation - mean).squaredNorm() <
+                                (b.base_from_platform.translation - mean).squaredNorm();
+                       });
+  return static_cast<std::size_t>(nearest - observations.items.begin());
+}
+
+// 1, 2 or 5 times a power of ten, not above x.
+double RoundFactor(double x) {
+  if (!(x > 0.0) || !std::isfinite(x)) return 1.0;
+  const double power = std::pow(10.0, std::floor(std::log10(x)));
+  return power * (x >= 5.0 * power ? 5.0 : x >= 2.0 * power ? 2.0 : 1.0);
+}
+
+double SizeOf(const Scene& scene) {
+  Points all = {scene.world_from_base.translation,
+                scene.world_from_platform.translation,
+                scene.world_from_tool.translation,
+                Eigen::Vector3d::Zero()};
+  for (const auto& [base, platform] : scene.legs) all.push_back(base), all.push_back(platform);
+  for (const Scene::Arrow& arrow : scene.arrows) all.push_back(arrow.from);
+  Eigen::Vector3d low = all[0], high = all[0];
+  for (const Eigen::Vector3d& p : all) low = low.cwiseMin(p), high = high.cwiseMax(p);
+  return (high - low).norm();
+}
+
+// Points, or lines with a gap after every `run` points.
+Json Trace(const std::string& name,
+           const char* mode,
+           const Points& points,
+           std::size_t run,
+           const char* colour) {
+  Json x = Json::array(), y = Json::array(), z = Json::array();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    x.push_back(kMilli * points[i].x());
+    y.push_back(kMilli * points[i].y());
+    z.push_back(kMilli * points[i].z());
+    if (run > 0 && (i + 1) % run == 0)
+      for (Json* list : {&x, &y, &z}) list->push_back(Json());
+  }
+  return {{"type", "scatter3d"},
+          {"mode", mode},
+          {"name", name},
+          {"x", x},
+          {"y", y},
+          {"z", z},
+          {"hoverinfo", "name"},
+          {"line", {{"color", colour}, {"width", 4}}},
+          {"marker", {{"color", colour}, {"size", 3}}}};
+}
+
+void AddFrame(const char* name, const Pose3d& world_from_frame, double length, Json* data) {
+  constexpr const char* kColours[3] = {"@before", "@good", "@after"};
+  for (int k = 0; k < 3; ++k) {
+    const Points axis = {world_from_frame.translation,
+                         world_from_frame * Eigen::Vector3d(length * Eigen::Vector3d::Unit(k))};
+    Json trace = Trace(name, "lines+text", axis, 0, kColours[k]);
+    trace["text"] = Json::array({k == 0 ? name : "", std::string(1, "xyz"[k])});
+    trace["textfont"] = {{"size", 11}};
+    trace["showlegend"] = false;
+    data->push_back(trace);
+  }
+}
+
+Json Ellipsoid(const Scene& scene, double factor) {
+  const Eigenvalues axes = DecomposeSymmetric(scene.covariance);
+  const double reach = std::sqrt(ChiSquareQuantile(0.95, 3.0));
+  const Eigen::Matrix3d root =
+      axes.vectors * (factor * reach * axes.values.cwiseMax(0.0).cwiseSqrt()).asDiagonal();
+  Points rings;
+  for (int i = 1; i < kCircles; ++i)
+    for (int k = 0; k <= kMeridians; ++k) {
+      const double polar = 0.5 * kTurn * i / kCircles, around = kTurn * k / kMeridians;
+      rings.push_back(scene.world_from_tool.translation +
+                      root * Eigen::Vector3d(std::sin(polar) * std::cos(around),
+                                             std::sin(polar) * std::sin(around),
+                                             std::cos(polar)));
+    }
+  Json trace = Trace(
+      fmt::format("95 % ellipsoid, {} times", factor), "lines", rings, kMeridians + 1, "@floor");
+  trace["line"]["width"] = 1;
+  return trace;
+}
+
+HtmlTable ArrowTable(const Scene& scene) {
+  HtmlTable table = {{{"pose"}, {"x, mm", true}, {"y, mm", true}, {"z, mm", true}}, {}};
+  for (const Scene::Arrow& arrow : scene.arrows)
+    table.rows.push_back({arrow.label,
+                          fmt::format("{:.4f}", kMilli * arrow.along.x()),
+                          fmt::format("{:.4f}", kMilli * arrow.along.y()),
+                          fmt::format("{:.4f}", kMilli * arrow.along.z())});
+  return table;
+}
+
+}  // namespace
+
+Scene MakeScene(const Dataset& dataset,
+                const Observations& observations,
+                const Estimate& estimate) {
+  Scene scene;
+  const Observation& shown = observations.items[MiddleOf(observations)];
+  const BaseAndTool& mounts = estimate.mounts;
+  scene.label = shown.label;
+  scene.world_from_base = mounts.world_from_base;
+  scene.world_from_platform = mounts.world_from_base * shown.base_from_platform;
+  scene.world_from_tool = scene.world_from_platform * mounts.platform_from_tool;
+  if (dataset.hexapod)
+    for (int leg = 0; leg < kNumLegs; ++leg)
+      scene.legs.emplace_back(
+          scene.world_from_base * Eigen::Vector3d(dataset.hexapod->base_joints_in_base.col(leg)),
+          scene.world_from_platform *
+              Eigen::Vector3d(dataset.hexapod->platform_joints_in_platform.col(leg)));
+  if (dataset.measurement->kind == Measurement::Kind::kMarkers)
+    for (int b = 0; b < 2; ++b) {
+      const MarkerBody& body = dataset.measurement->bodies[b];
+      const Pose3d world_from_body = b == 0 ? Pose3d{} : scene.world_from_tool;
+      for (Eigen::Index k = 0; k < body.p_in_body.cols(); ++k)
+        scene.markers.emplace_back((b == 0 ? "base/" : "tool/") + body.markers[k],
+                                   world_from_body * Eigen::Vector3d(body.p_in_body.col(k)));
+    }
+  CHECK_EQ(estimate.poses.size(), observations.items.size());
+  const std::size_t stride = StrideOf(observations.items.size());
+  for (std::size_t i = 0; i < observations.items.size(); i += stride) {
+    const Observation& o = observations.items[i];
+    const Pose3d predicted =
+        mounts.world_from_base * o.base_from_platform * mounts.platform_from_tool;
+    scene.arrows.push_back(
+        {o.label,
+         predicted.translation,
+         predicted.rotation * Eigen::Vector3d(estimate.poses[i].residual.head<3>())});
+  }
+  const Eigen::Matrix<double, 3, 12> j =
+      TargetJacobian(mounts, shown.base_from_platform, Eigen::Vector3d::Zero());
+  scene.covariance = j * estimate.covariance * j.transpose();
+  return scene;
+}
+
+Chart SceneChart(const Scene& scene) {
+  const double size = SizeOf(scene);
+  double longest = 0.0;
+  for (const Scene::Arrow& arrow : scene.arrows) longest = std::max(longest, arrow.along.norm());
+  const double arrows = RoundFactor(kArrowPart * size / longest);
+  const double widest = std::sqrt(DecomposeSymmetric(scene.covariance).values[2]);
+  const double ellipsoid = RoundFactor(kEllipsoidPart * size / widest);
+
+  Chart chart;
+  chart.is_in_space = true;
+  chart.title = "The machine, and what is left over";
+  chart.shows = fmt::format(
+      "frames W, B, A and T, legs and markers at pose {} (mm, frame W); for every pose the tool's "
+      "predicted place and how far the measured one is off, {} times enlarged; the ellipsoid, {} "
+      "times "
+      "enlarged, holds the predicted tool with 95 %.",
+      scene.label,
+      arrows,
+      ellipsoid);
+  chart.good =
+      "arrows in all directions. Neighbours that point the same way mean that the model misses "
+      "something; a long, thin ellipsoid says along which direction the poses tell least.";
+  AddFrame("W", {}, 0.12 * size, &chart.data);
+  AddFrame("B", scene.world_from_base, 0.12 * size, &chart.data);
+  AddFrame("A", scene.world_from_platform, 0.08 * size, &chart.data);
+  AddFrame("T", scene.world_from_tool, 0.08 * size, &chart.data);
+  Points legs, ends, places, markers;
+  for (const auto& [base, platform] : scene.legs) legs.push_back(base), legs.push_back(platform);
+  Json names = Json::array(), labels = Json::array();
+  for (const auto& [name, p] : scene.markers)
+    markers.push_back(p), names.push_back(EscapeLabel(name));
+  for (const Scene::Arrow& arrow : scene.arrows) {
+    places.push_back(arrow.from);
+    ends.push_back(arrow.from), ends.push_back(arrow.from + arrows * arrow.along);
+    labels.push_back(EscapeLabel(arrow.label));
+  }
+  if (!legs.empty()) chart.data.push_back(Trace("legs", "lines+markers", legs, 2, "@other"));
+  if (!markers.empty()) {
+    Json trace = Trace("markers", "markers", markers, 0, "@ink");
+    trace["text"] = names, trace["hoverinfo"] = "text";
+    chart.data.push_back(trace);
+  }
+  Json trace = Trace("poses, as predicted", "markers", places, 0, "@after");
+  trace["text"] = labels, trace["hoverinfo"] = "text", trace["marker"]["size"] = 2;
+  chart.data.push_back(trace);
+  chart.data.push_back(
+      Trace(fmt::format("left over, {} times", arrows), "lines", ends, 2, "@before"));
+  if (widest > 0.0) chart.data.push_back(Ellipsoid(scene, ellipsoid));
+  const Json axis = {{"title", {{"text", ""}}},
+                     {"gridcolor", "@grid"},
+                     {"zerolinecolor", "@grid"},
+                     {"color", "@muted"}};
+  chart.layout = {{"height", 560},
+                  {"margin", {{"l", 0}, {"r", 0}, {"t", 40}, {"b", 0}}},
+                  {"scene",
+                   {{"aspectmode", "data"},
+                    {"camera", {{"eye", {{"x", 1.1}, {"y", 1.1}, {"z", 0.7}}}}},
+                    {"xaxis", axis},
+                    {"yaxis", axis},
+                    {"zaxis", axis}}}};
+  chart.table = ArrowTable(scene);
+  return chart;
+}
+
+}  // namespace hexcal

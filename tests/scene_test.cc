@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/scene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "model/hexapod.h"
+#include "testing/audits.h"
+#include "testing/matchers.h"
+
+namespace hexcal {
+namespace {
+
+using ::hexcal::testing::MatrixNear;
+using ::testing::HasSubstr;
+
+class SceneTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { example = new testing::AuditedExample(testing::AuditExample()); }
+  static void TearDownTestSuite() { delete example; }
+  static Scene Make() {
+    return MakeScene(example->dataset, example->observations, example->estimate);
+  }
+  static testing::AuditedExample* example;
+};
+testing::AuditedExample* SceneTest::example = nullptr;
+
+TEST_F(SceneTest, ArrowsAreMeasuredMinusPredictedInTheWorld) {
+  const Scene scene = Make();
+  ASSERT_EQ(scene.arrows.size(), 60u);
+  const BaseAndTool& mounts = example->estimate.mounts;
+  for (int i = 0; i < 60; ++i) {
+    const Observation& o = example->observations.items[i];
+    const Eigen::Vector3d predicted =
+        (mounts.world_from_base * o.base_from_platform * mounts.platform_from_tool).translation;
+    EXPECT_TRUE(MatrixNear(scene.arrows[i].from, predicted, 1e-12));
+    EXPECT_TRUE(MatrixNear(
+        scene.arrows[i].from + scene.arrows[i].along, o.world_from_tool.translation, 1e-9));
+  }
+}
+
+// Legs end at their joints: as long as inverse kinematics has them.
+TEST_F(SceneTest, LegsAndMarkersStandWhereTheyAre) {
+  const Scene scene = Make();
+  ASSERT_EQ(scene.legs.size(), 6u);
+  const Pose3d base_from_platform = scene.world_from_base.Inverse() * scene.world_from_platform;
+  const LegLengths lengths = InverseKinematics(*example->dataset.hexapod, base_from_platform);
+  for (int leg = 0; leg < 6; ++leg)
+    EXPECT_NEAR((scene.legs[leg].second - scene.legs[leg].first).norm(), lengths[leg], 1e-12);
+  ASSERT_EQ(scene.markers.size(), 6u);
+  EXPECT_EQ(scene.markers[0].first, "base/b1");
+  EXPECT_TRUE(MatrixNear(scene.markers[0].second, Eigen::Vector3d(-0.208, -0.12, 0.0), 1e-12));
+  EXPECT_EQ(scene.markers[5].first, "tool/t3");
+  EXPECT_TRUE(MatrixNear(
+      scene.markers[5].second, scene.world_from_tool * Eigen::Vector3d(0.0, 0.08, 0.0), 1e-12));
+}
+
+TEST_F(SceneTest, EllipsoidIsThatOfTheOriginOfTheTool) {
+  const Scene scene = Make();
+  const TargetCovariance at =
+      TargetError(example->estimate, {})
+          .At(scene.world_from_base.Inverse() * scene.world_from_platform, Eigen::Vector3d::Zero());
+  EXPECT_TRUE(MatrixNear(scene.covariance, at.total, 1e-15));
+}
+
+TEST_F(SceneTest, NamesAreEscapedAndFactorsAreSaid) {
+  Scene scene = Make();
+  scene.markers[0].first = "<b>";
+  scene.arrows[0].label = "<i>";
+  const Chart chart = SceneChart(scene);
+  EXPECT_TRUE(chart.is_in_space);
+  const std::string data = chart.data.dump();
+  EXPECT_EQ(data.find("<b>"), std::string::npos);
+  EXPECT_EQ(data.find("<i>"), std::string::npos);
+  EXPECT_THAT(chart.shows, HasSubstr("times enlarged"));
+  EXPECT_EQ(chart.table.rows.size(), 60u);
+}
+
+// No noise, no legs: still a picture, without numbers that are none.
+TEST_F(SceneTest, OfExactDataHasNoInfinity) {
+  Scene scene = Make();
+  scene.legs.clear(), scene.markers.clear();
+  scene.covariance.setZero();
+  for (Scene::Arrow& arrow : scene.arrows) arrow.along.setZero();
+  for (const auto& trace : SceneChart(scene).data)
+    for (const auto& x : trace["x"]) EXPECT_TRUE(x.is_null() || std::isfinite(x.get<double>()));
+}
+
+}  // namespace
+}  // namespace hexcal
