@@ -30,9 +30,9 @@ void AddVerdict(const Audit& audit, HtmlPage* page) {
                       {"probability", true},
                       {"limit, mm", true},
                       {"value, mm", true},
-                      {"guard band, mm", true},
-                      {"worst at"}},
+                      {"guard band, mm", true}},
                      {}};
+  std::vector<std::string> places;
   for (const Decision& d : audit.decisions) {
     const bool is_known = d.value > 0.0;
     table.rows.push_back({d.requirement.name,
@@ -41,11 +41,13 @@ void AddVerdict(const Audit& audit, HtmlPage* page) {
                           ShareText(d.requirement.probability),
                           fmt::format("{:.4g}", 1e3 * d.requirement.limit),
                           is_known ? fmt::format("{:.4f}", 1e3 * d.value) : "–",
-                          is_known ? fmt::format("{:.4f}", 1e3 * d.guard) : "–",
-                          is_known ? WordsOf(d.worst) : "–"});
+                          is_known ? fmt::format("{:.4f}", 1e3 * d.guard) : "–"});
+    if (is_known)
+      places.push_back(fmt::format("{}: worst at {}", d.requirement.name, WordsOf(d.worst)));
   }
   if (!table.rows.empty()) {
     page->Table(table);
+    page->List(places);
     page->Note(
         "Decision rule, guarded acceptance (JCGM 106:2012, 8.3): PASS where value and guard band "
         "stay "

@@ -145,14 +145,19 @@ void AddAccuracy(const Audit& audit, HtmlPage* page) {
             "but the model speaks"));
   HtmlTable table = {
       {{"point"}, {"where"}, {"RMS, mm", true}, {"not exceeded with 95 %, mm", true}}, {}};
-  for (const PointReport& report : audit.points)
+  std::vector<std::string> places;
+  for (const PointReport& report : audit.points) {
     for (const auto& [name, at] :
          {std::pair{"centre", &report.centre}, std::pair{"worst", &report.worst}})
       table.rows.push_back({report.point.name,
-                            fmt::format("{}: {}", name, WordsOf(at->place)),
+                            name,
                             fmt::format("{:.4f}", 1e3 * at->rms),
                             fmt::format("{:.4f}", 1e3 * at->length_95)});
+    places.push_back(
+        fmt::format("{}: worst at {}", report.point.name, WordsOf(report.worst.place)));
+  }
   page->Table(table);
+  page->List(places);
   for (const PointReport& report : audit.points) page->Figure(MapChart(report));
 }
 

@@ -177,6 +177,7 @@ Chart ConvergenceChart(const std::vector<IterationRecord>& iterations, const std
   Json y = OpenAxis("RMS");
   y["type"] = "log";
   Json x = OpenAxis("iteration");
+  x["rangemode"] = "nonnegative";
   x["dtick"] = std::max<std::size_t>(1, iterations.size() / 10);
   chart.layout = {{"height", 340}, {"xaxis", x}, {"yaxis", y}};
   return chart;
