@@ -102,6 +102,26 @@ TEST(RivalModels, AnEffectIsMeasuredWithTheOthersFree) {
   EXPECT_LT((nuisance.transpose() * nuisance - information).norm(), 1e-8 * information.norm());
 }
 
+TEST(RivalModels, RivalsAreThoseOfTheDataWhereTheModelHasHalfOfTheEffect) {
+  auto rng = SeededByTest();
+  const Scene scene = MakeScene(rng);
+  Machine machine = TrueMachine(rng);
+  machine.effects = {
+      SomeEffect(rng, *FindEffectKind("leg_gain"), scene.visits, scene.dataset, 2.0)};
+  SimulateOptions with_noise;
+  const Dataset seen = Simulate(scene.dataset, machine, with_noise);
+  machine.effects[0].parameters *= 0.5;
+  const PlanScene plan = MakePlanScene(seen, machine);
+  const GapData data = MakeGapData(plan.dataset, plan.reported);
+  GapNoise noise;
+  noise.factor = {1.0, 0.0, 0.0};
+  noise.weight = noise.shape_weight = Eigen::VectorXd::Ones(testing::kGrownPoses);
+  const PlanForms forms =
+      WithRivals(plan, data, {machine.world_from_base, machine.platform_from_tool}, noise);
+  // Were half of the effect taken off once more, nothing would be left and all would be rivals.
+  EXPECT_LT(forms.rivals.size(), 4u);
+}
+
 TEST(RivalModels, OfSomeFormsWhatTheyShareComesAlong) {
   auto rng = SeededByTest();
   const Scene scene = MakeScene(rng);
