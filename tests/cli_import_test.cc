@@ -15,6 +15,7 @@
 #include "measurement/importers/formats.h"
 #include "model/machine.h"
 #include "testing/matchers.h"
+#include "testing/random.h"
 #include "testing/run_program.h"
 #include "testing/temporary_folder.h"
 
@@ -100,6 +101,111 @@ TEST_F(CliImport, SaysWhereAnotherConventionFits) {
   const ProgramResult tracker =
       ImportExample({"--pair=rows", "--kind=poses", "--measured_inverse", "--name=turned"});
   EXPECT_THAT(tracker.err, HasSubstr("the tracker's poses as they are (no --measured_inverse)"));
+}
+
+// The same poses as two trajectories, the tracker's clock ahead, with another program's calibration
+// of the base as a first guess.
+TEST_F(CliImport, TakesTrajectoriesPairedByTimeAndAFirstGuess) {
+  const Pose3d world_from_base{{0.4, -0.2, 1.1}, Exp(Eigen::Vector3d(0.3, -0.2, 0.5))};
+  const Pose3d platform_from_tool{{0.02, 0.01, 0.09}, Exp(Eigen::Vector3d(-0.1, 0.4, 0.2))};
+  std::mt19937_64 random = testing::SeededByTest();
+  std::string robot, tracker = "# seconds x y z qx qy qz qw\n";
+  const auto row = [](double time, const Pose3d& pose) {
+    const Eigen::Vector3d& t = pose.translation;
+    const Eigen::Vector4d& q = pose.rotation.coeffs();
+    return fmt::format(
+        "{} {} {} {} {} {} {} {}\n", time, t.x(), t.y(), t.z(), q[0], q[1], q[2], q[3]);
+  };
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Vector3d translation = testing::UniformVector(random, 0.05);
+    const Pose3d reported{translation, Exp(testing::UniformVector(random, 0.3))};
+    robot += row(10.0 * i, reported);
+    tracker += row(1000.25 + 10.0 * i, world_from_base * reported * platform_from_tool);
+  }
+  const Pose3d guess = world_from_base.Inverse();
+  const Eigen::Vector4d& q = guess.rotation.coeffs();
+  folder.Write("robot.tum", robot);
+  folder.Write("tracker.tum", tracker);
+  folder.Write("base.yaml",
+               fmt::format("parameters: {{eye_on_hand: false}}\ntransformation: {{x: {}, y: {}, z: "
+                           "{}, qx: {}, qy: {}, qz: {}, qw: {}}}\n",
+                           guess.translation.x(),
+                           guess.translation.y(),
+                           guess.translation.z(),
+                           q[0],
+                           q[1],
+                           q[2],
+                           q[3]));
+  const ProgramResult imported = Import({"tum",
+                                         "tracker.tum",
+                                         "--robot=robot.tum",
+                                         "--robot_format=tum",
+                                         "--pair=time",
+                                         "--time_offset=1000.25",
+                                         "--initial=base.yaml",
+                                         "--out=mine"});
+  ASSERT_EQ(imported.status, 0) << imported.err;
+  EXPECT_THAT(imported.out, HasSubstr("mine: 20 robot poses, 20 poses of the tool"));
+  const Dataset dataset = ReadDataset(folder.Path("mine/dataset.yaml"), true);
+  EXPECT_TRUE(testing::PoseNear(dataset.initial->world_from_base, world_from_base, 1e-9, 1e-9));
+  EXPECT_TRUE(
+      testing::PoseNear(dataset.initial->platform_from_tool, platform_from_tool, 1e-9, 1e-9));
+  EXPECT_EQ(dataset.robot_poses.covariates.at(0).values.back(), 190.0);
+}
+
+// Markers by name, their places from a file, a body of each kind.
+TEST_F(CliImport, TakesFirstPrinciplesMarkersWithTheirBodies) {
+  const std::string data = std::string(HEXCAL_SOURCE) + "/tests/data/importers/";
+  const Dataset example = ReadDataset(kExamples + "/neurobot/dataset.yaml", true);
+  std::string text = "Number of frames: 60\nFrequency: 10\nUnits: mm\n\nFrame";
+  for (const char* name : {"B1", "B2", "B3", "T1", "T2", "T3"})
+    text += fmt::format("\t{0} x\t{0} y\t{0} z", name);
+  int last = -1;
+  for (const MarkerReading& reading : example.measurement->readings) {
+    if (reading.pose != last) text += fmt::format("\n{}", reading.pose + 1);
+    last = reading.pose;
+    for (const double x : reading.p_in_tracker) text += fmt::format("\t{}", 1e3 * x);
+  }
+  folder.Write("markers.tsv", text + "\n");
+  folder.Write("tool.rig",
+               "Marker Description File\nReal 3D\n3 ;Number of markers\n1 ;views\nFront\n"
+               "Marker X Y Z Views\n1 -69 -40 0 1\n2 69 -40 0 1\n3 0 80 0 1\n");
+  const ProgramResult imported = Import({"first_principles",
+                                         "markers.tsv",
+                                         kRobot,
+                                         "--base=B1,B2,B3",
+                                         "--tool=T1,T2,T3",
+                                         "--tool_body=tool.rig",
+                                         "--pair=rows",
+                                         "--out=mine"});
+  ASSERT_EQ(imported.status, 0) << imported.err;
+  EXPECT_THAT(imported.out, HasSubstr("conventions as stated"));
+  const ProgramResult calibrated =
+      RunHexcal({{"calibrate", "mine/dataset.yaml", "--out=out"}, folder.Path("")});
+  ASSERT_EQ(calibrated.status, 0) << calibrated.err;
+  const Json result = Json::parse(folder.Read("out/mine/result.json"));
+  const Machine truth = ReadMachine(kExamples + "/neurobot/truth.yaml");
+  EXPECT_TRUE(testing::PoseNear(
+      PoseOf(result["platform_from_tool"]), truth.platform_from_tool, 3e-4, 1e-3));
+  // Without the file the tool's three markers make their own frame; four would need one.
+  EXPECT_EQ(Import({"first_principles",
+                    "markers.tsv",
+                    kRobot,
+                    "--base=B1,B2,B3",
+                    "--tool=T1,T2",
+                    "--pair=rows",
+                    "--out=other"})
+                .status,
+            3);
+  EXPECT_EQ(Import({"first_principles",
+                    data + "first_principles.tsv",
+                    kRobot,
+                    "--base=Beam1",
+                    "--tool=Beam2",
+                    "--pair=rows",
+                    "--out=other"})
+                .status,
+            3);
 }
 
 TEST_F(CliImport, CommentsTheDatasetThatItWrites) {

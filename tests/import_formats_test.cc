@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Readers of the further formats, on files written by hand from their descriptions.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -352,6 +353,52 @@ TEST(Columns, RefuseMapsAndTablesThatDoNotFit) {
   EXPECT_THAT(error("markers: [M1]", "markers: [M2]"), HasSubstr("the marker 'M2' of 'probe'"));
   EXPECT_THAT(error("quaternion", "quaternions"), HasSubstr("quaternion"));
   EXPECT_THAT(error("unit: s", "unit: h"), HasSubstr("one of s, ms, us, ns"));
+}
+
+// A file given as one of another format is refused, and where its beginning tells what it is the
+// message says so.
+TEST(Formats, NoneTakesTheFileOfAnother) {
+  const std::vector<std::pair<std::string_view, const char*>> files = {
+      {"ndi_csv", "ndi_wide.csv"},
+      {"first_principles", "first_principles.tsv"},
+      {"motive", "motive.csv"},
+      {"tum", "trajectory.tum"},
+      {"euroc", "trajectory.euroc.csv"},
+      {"pi_gcs", "pi_gcs.dat"},
+      {"industrial_calibration", "industrial/list.yaml"},
+      {"columns", "lab.csv"},
+      {"rig", "body.rig"},
+      {"easy_handeye", "easy_handeye.yaml"}};
+  for (const auto& [own, file] : files) {
+    const ImportFormat* recognised = RecogniseFormat(ImportPath(file));
+    if (FindImportFormat(own)->recognise != nullptr) {
+      ASSERT_NE(recognised, nullptr) << file;
+      EXPECT_EQ(recognised->name, own);
+    } else {
+      EXPECT_EQ(recognised, nullptr) << file;
+    }
+    for (const ImportFormat& format : ImportFormats()) {
+      if (format.name == own || format.read_recording == nullptr) continue;
+      const std::string message =
+          InputErrorText([&] { ReadRecording(format, ImportPath(file), LabMap()); });
+      EXPECT_EQ(message.find("(no exception)"), std::string::npos) << format.name << " " << file;
+      EXPECT_EQ(message.find("(another exception"), std::string::npos) << message;
+      if (recognised != nullptr && format.recognise != nullptr) {
+        EXPECT_THAT(message, HasSubstr(fmt::format("like one of the format {}", own)));
+      }
+    }
+  }
+  EXPECT_THAT(InputErrorText([] { ReadMarkerShape(ImportPath("lab.csv")); }),
+              HasSubstr("found a file of no known kind, expected a marker body: rig, rom"));
+  EXPECT_THAT(InputErrorText([] { ReadMarkerShape(ImportPath("motive.csv")); }),
+              HasSubstr("found a file of the format motive"));
+}
+
+// More points than hexcal takes are refused before they fill the memory.
+TEST(Formats, HaveALimit) {
+  EXPECT_THAT(InputErrorText([] { CheckReadings(1'000'000, 21, FileLocation("f")); }),
+              HasSubstr("expected at most 20000000 points and poses"));
+  CheckReadings(1'000'000, 20, FileLocation("f"));
 }
 
 }  // namespace
