@@ -201,6 +201,7 @@ const Command kImport = {
      {"map"},
      {"pair"},
      {"frames"},
+     {"stops"},
      {"window"},
      {"time_offset"},
      {"missing_value"},

@@ -121,6 +121,11 @@ DEFINE_string(pair,
               "How the tracker's rows belong to the robot's: row k to row k, all rows of file k to "
               "row k, to the nearest in time, or to that of the same label.");
 DEFINE_int32(frames, 1, "So many rows of the tracker belong to each row of the robot.");
+DEFINE_double(
+    stops,
+    0.0,
+    "The robot's file is a log over time: where it stands still for so long is a pose, and "
+    "the tracker's readings meanwhile, but for the first fifth, are of it.");
 DEFINE_double(window, 0.05, "A reading further off in time than this belongs to no pose.");
 DEFINE_double(time_offset, 0.0, "What the tracker's clock is ahead of the robot's.");
 DEFINE_double(missing_value,
@@ -241,6 +246,7 @@ std::vector<FlagSpec> MakeSpecs() {
       {"measured_inverse", kFiles, "", ""},
       {"pair", kFiles, "", "", {"rows", "files", "time", "labels"}},
       {"frames", kFiles, "N", "", {}, 1, 1e6},
+      {"stops", kFiles, "S", "every row is a pose", {}, 0.0, 1e6, true},
       {"window", kFiles, "S", "", {}, 0.0, 1e6},
       {"time_offset", kFiles, "S", "", {}, -3e9, 3e9},
       {"missing_value", kFiles, "X", "", {}, -1e30, 1e30},
@@ -275,6 +281,7 @@ std::vector<FlagSpec> MakeSpecs() {
     }
   };
   only_with("frames", "pair", "rows");
+  only_with("stops", "pair", "time");
   only_with("window", "pair", "time");
   only_with("time_offset", "pair", "time");
   for (FlagSpec& spec : specs) {

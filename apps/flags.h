@@ -45,6 +45,7 @@ DECLARE_string(tool_body);
 DECLARE_string(kind);
 DECLARE_string(pair);
 DECLARE_int32(frames);
+DECLARE_double(stops);
 DECLARE_double(window);
 DECLARE_double(time_offset);
 DECLARE_double(missing_value);

@@ -19,6 +19,7 @@
 #include "measurement/importers/formats.h"
 #include "measurement/importers/hexapod_file.h"
 #include "measurement/importers/initial_guess.h"
+#include "measurement/importers/stops.h"
 #include "measurement/importers/yaml_poses.h"
 
 namespace hexcal {
@@ -87,6 +88,7 @@ Sources ReadSources(const ImportFormat& format, const std::vector<std::string>& 
   for (const std::string& file : files)
     sources.tracker.push_back(ReadRecording(format, file, TrackerOptions()));
   sources.robot = ReadRecording(RobotFormat(), FLAGS_robot, RobotOptions());
+  if (FLAGS_stops > 0.0) sources.robot = FindStops(sources.robot, FLAGS_stops);
   return sources;
 }
 

@@ -5,6 +5,7 @@
 
 #include "measurement/importers/assemble.h"
 #include "measurement/importers/dataset_comments.h"
+#include "measurement/importers/stops.h"
 #include "measurement/tool_pose.h"
 #include "testing/input_error_text.h"
 #include "testing/matchers.h"
@@ -171,6 +172,55 @@ TEST_F(Assembling, PairsByTimeByTheRobotsClockAndTheOffset) {
   EXPECT_THAT(dataset.robot_poses.covariates[0].values, ElementsAre(0.0, 10.0, 20.0, 30.0));
   options.window = 1e-7;  // the clocks differ by 1 us
   EXPECT_THAT(Error(), HasSubstr("some within --window"));
+}
+
+// A log of the robot at 10 Hz: three stops of 2 s, 1 s of motion between them, a stop of 0.5 s.
+TEST_F(Assembling, MakesPosesOfTheStopsInALog) {
+  Recording log = robot;
+  log.rows = 0;
+  log.times.clear();
+  log.bodies[0].poses.clear();
+  const auto add = [&log](const Pose3d& pose) {
+    log.bodies[0].poses.emplace_back(pose);
+    log.times.push_back(static_cast<std::int64_t>(log.rows++) * kSecond / 10);
+  };
+  const Vector6d jitter = Vector6d::Constant(1e-6);
+  for (int stop = 0; stop < 4; ++stop) {
+    const Pose3d pose = *robot.bodies[0].poses[static_cast<std::size_t>(stop)];
+    for (int i = 0; i < (stop < 3 ? 20 : 5); ++i) add(i % 2 == 0 ? pose : Plus(pose, jitter));
+    for (int i = 0; i < 10; ++i) {
+      Vector6d moved = Vector6d::Zero();
+      moved[1] = 0.001 * (i + 1);
+      add(Plus(pose, moved));
+    }
+  }
+  const Recording stops = FindStops(log, 1.0);
+  ASSERT_EQ(stops.rows, 3u);
+  EXPECT_THAT(stops.spans,
+              ElementsAre(std::make_pair(0L, 1900000000L),
+                          std::make_pair(3000000000L, 4900000000L),
+                          std::make_pair(6000000000L, 7900000000L)));
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_TRUE(PoseNear(*stops.bodies[0].poses[i], *robot.bodies[0].poses[i], 2e-6, 2e-6));
+
+  // Readings of the tracker at 0.3 s (settling), 1.8 s, 2.5 s (moving), 3.5 s of its own clock.
+  options.pairing = Pairing::kTime;
+  options.time_offset = 100.0;
+  tracker.times = {100300000000, 101800000000, 102500000000, 103500000000};
+  const Dataset dataset = Assemble(stops, {tracker}, options).dataset;
+  EXPECT_EQ(dataset.robot_poses.rows.size(), 3u);
+  ASSERT_EQ(dataset.measurement->readings.size(), 16u);
+  EXPECT_EQ(dataset.measurement->readings.front().pose, 0);
+  EXPECT_TRUE(MatrixNear(
+      dataset.measurement->readings.front().p_in_tracker, *tracker.markers[0].points[1], kClose));
+  EXPECT_EQ(dataset.measurement->readings.back().pose, 1);
+
+  EXPECT_THAT(InputErrorText([&] { FindStops(log, 10.0); }),
+              HasSubstr("no stop of 10 s or longer"));
+  std::swap(log.times[3], log.times[4]);
+  EXPECT_THAT(InputErrorText([&] { FindStops(log, 1.0); }), HasSubstr("rising times"));
+  log.times.clear();
+  EXPECT_THAT(InputErrorText([&] { FindStops(log, 1.0); }), HasSubstr("for --stops"));
 }
 
 TEST_F(Assembling, KeepsReadingsOfOnePoseAsFrames) {

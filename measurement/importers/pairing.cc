@@ -13,6 +13,7 @@ namespace hexcal {
 namespace {
 
 constexpr double kNanosecond = 1e-9;  // s
+constexpr double kSettling = 0.2;     // of a stop, at its begin: readings in it are not used
 
 using Rows = std::vector<std::vector<TrackerRow>>;
 
@@ -77,28 +78,63 @@ void RequireTimes(const Recording& recording) {
   throw InputError(FileLocation(recording.path), "no times", "times of the rows for --pair=time");
 }
 
+// The robot's rows by time, in the tracker's clock.
+class Stops {
+ public:
+  Stops(const Recording& robot, const AssembleOptions& options) : window_(options.window) {
+    const auto offset = static_cast<std::int64_t>(std::llround(options.time_offset / kNanosecond));
+    for (std::size_t i = 0; i < robot.rows; ++i) times_.emplace_back(robot.times[i] + offset, i);
+    std::sort(times_.begin(), times_.end());
+    for (const auto& [begin, end] : robot.spans) {
+      const auto settling = static_cast<std::int64_t>(kSettling * static_cast<double>(end - begin));
+      spans_.emplace_back(begin + settling + offset, end + offset);
+    }
+  }
+
+  std::int64_t First() const { return times_.front().first; }
+  std::int64_t Last() const { return times_.back().first; }
+
+  // The robot's row to which a reading at this time belongs.
+  std::optional<std::size_t> Find(std::int64_t time) const {
+    if (!spans_.empty()) return FindSpan(time);
+    auto next =
+        std::lower_bound(times_.begin(), times_.end(), std::make_pair(time, std::size_t{0}));
+    const bool has_nearer =
+        next == times_.end() ||
+        (next != times_.begin() && time - std::prev(next)->first < next->first - time);
+    if (has_nearer) --next;
+    const double distance = kNanosecond * static_cast<double>(std::abs(next->first - time));
+    if (distance > window_) return std::nullopt;
+    return next->second;
+  }
+
+ private:
+  // Spans rise and do not overlap.
+  std::optional<std::size_t> FindSpan(std::int64_t time) const {
+    const auto next = std::partition_point(
+        spans_.begin(), spans_.end(), [time](const auto& span) { return span.second < time; });
+    if (next == spans_.end() || next->first > time) return std::nullopt;
+    return static_cast<std::size_t>(next - spans_.begin());
+  }
+
+  double window_;  // s
+  std::vector<std::pair<std::int64_t, std::size_t>> times_;
+  std::vector<std::pair<std::int64_t, std::int64_t>> spans_;
+};
+
 Rows PairByTime(const Recording& robot,
                 const std::vector<Recording>& tracker,
                 const AssembleOptions& options) {
   RequireTimes(robot);
   for (const Recording& file : tracker) RequireTimes(file);
-  const auto offset = static_cast<std::int64_t>(std::llround(options.time_offset / kNanosecond));
-  std::vector<std::pair<std::int64_t, std::size_t>> stops;
-  for (std::size_t i = 0; i < robot.rows; ++i) stops.emplace_back(robot.times[i] + offset, i);
-  std::sort(stops.begin(), stops.end());
+  const Stops stops(robot, options);
   Rows rows(robot.rows);
   bool any = false;
   for (std::size_t file = 0; file < tracker.size(); ++file) {
     for (std::size_t row = 0; row < tracker[file].rows; ++row) {
-      const std::int64_t time = tracker[file].times[row];
-      auto next =
-          std::lower_bound(stops.begin(), stops.end(), std::make_pair(time, std::size_t{0}));
-      if (next == stops.end() ||
-          (next != stops.begin() && time - std::prev(next)->first < next->first - time))
-        --next;
-      if (kNanosecond * static_cast<double>(std::abs(next->first - time)) > options.window)
-        continue;
-      rows[next->second].push_back({file, row});
+      const std::optional<std::size_t> stop = stops.Find(tracker[file].times[row]);
+      if (!stop) continue;
+      rows[*stop].push_back({file, row});
       any = true;
     }
   }
@@ -108,8 +144,8 @@ Rows PairByTime(const Recording& robot,
       FirstFile(tracker),
       fmt::format("times from {:.3f} s on, the robot's being {:.3f} to {:.3f} s",
                   seconds(tracker.front().times.front()),
-                  seconds(stops.front().first),
-                  seconds(stops.back().first)),
+                  seconds(stops.First()),
+                  seconds(stops.Last())),
       fmt::format("some within --window={} s of each other; --time_offset=S says what the "
                   "tracker's clock is ahead of the robot's",
                   options.window));

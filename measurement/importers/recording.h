@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config/input_error.h"
@@ -36,6 +37,8 @@ struct Recording {
   std::string path;
   std::size_t rows = 0;
   std::vector<std::int64_t> times{};  // ns, one a row; empty: the file has none
+  // Begin and end of the rows, ns, where each is a stretch of time (stops.h); else empty.
+  std::vector<std::pair<std::int64_t, std::int64_t>> spans{};
   std::vector<std::string> labels{};  // of the rows; empty: the file has none
   std::vector<int> lines{};           // of the rows; empty: the file has no lines
   std::vector<RecordedBody> bodies{};
