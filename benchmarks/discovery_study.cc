@@ -22,6 +22,7 @@ DEFINE_int32(sets, 100, "a cell; of naming, rounded up to whole rounds of all ef
 DEFINE_int32(clean_sets, 2000, "without an effect, white noise");
 DEFINE_int32(regime_sets, 300, "without an effect, in each other regime");
 DEFINE_int32(bootstraps, 199, "of one discovery");
+DEFINE_int32(folds, 0, "of one discovery; the study has held-out poses of its own, so 0: none");
 DEFINE_int32(threads, 2, "datasets at a time");
 DEFINE_uint64(seed, 1, "of the series");
 DEFINE_uint64(first, 0, "number of the first case");
@@ -49,6 +50,7 @@ struct Cell {
 Trial RunOne(const Cell& cell, std::uint64_t number) {
   DiscoverOptions options;
   options.bootstraps = FLAGS_bootstraps;
+  options.folds = FLAGS_folds;
   options.seed = FLAGS_seed + number;
   try {
     return RunTrial(cell.name, MakeCase(cell.options, FLAGS_seed, number), options, cell.as_poses);

@@ -29,7 +29,7 @@ std::string LabelOf(const Effect& effect,
                     int index,
                     const Dataset& dataset) {
   const std::string site = kind != nullptr ? std::string(kind->site) : effect.found.at("site");
-  if (site == "marker") {
+  if (site == "marker" || effect.name == "swapped_markers") {
     const auto& bodies = dataset.measurement->bodies;
     const int in_base = static_cast<int>(bodies[0].markers.size());
     const int marker = index - 1;

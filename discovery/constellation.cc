@@ -119,10 +119,13 @@ std::vector<SeenPose> SeePoses(const Dataset& dataset,
       }
       Fit(&seen);
     }
-    if (!pose.HasShape() || dataset.tracker.is_static || corrections.empty()) continue;
-    if (pose.bodies[0].markers.empty() || pose.bodies[1].markers.empty()) continue;
-    pose.world_from_tool =
-        pose.bodies[0].tracker_from_body.Inverse() * pose.bodies[1].tracker_from_body;
+    if (corrections.empty() || pose.bodies[1].markers.empty()) continue;
+    if (dataset.tracker.is_static)
+      pose.world_from_tool =
+          tool_poses.tracker_from_world->Inverse() * pose.bodies[1].tracker_from_body;
+    else if (!pose.bodies[0].markers.empty())
+      pose.world_from_tool =
+          pose.bodies[0].tracker_from_body.Inverse() * pose.bodies[1].tracker_from_body;
   }
   return poses;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "measurement/covariates.h"
 #include "model/described_effect.h"
 
 namespace hexcal {
@@ -137,7 +138,11 @@ void AddDescribedForms(const Dataset& dataset,
                        const std::vector<int>& rows,
                        FormLibrary* library) {
   const Drivers drivers = DriversOf(dataset);
-  for (const std::string& driver : DriverNames()) {
+  std::vector<std::string> names = DriverNames();
+  for (const Covariate& covariate : dataset.robot_poses.covariates)
+    if (!HasMeaning(covariate.name) && !IsDriverName(covariate.name))
+      names.push_back(covariate.name);
+  for (const std::string& driver : names) {
     double centre = 0.0, half_range = 0.0;
     if (!RangeOf(driver, visits, rows, &centre, &half_range)) continue;
     const bool is_length = driver == "leg_length";

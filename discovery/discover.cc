@@ -14,10 +14,12 @@
 #include "discovery/refit.h"
 #include "discovery/rivals.h"
 #include "discovery/select.h"
+#include "discovery/swapped_markers.h"
 #include "discovery/unknown_geometry.h"
 #include "discovery/where.h"
 #include "estimator/calibrate.h"
 #include "estimator/quantiles.h"
+#include "model/data_fault.h"
 #include "model/described_effect.h"
 #include "model/predict.h"
 
@@ -31,8 +33,14 @@ constexpr double kMuchMore = 1.5;     // of the stated noise
 
 class Discoverer {
  public:
-  Discoverer(const Dataset& dataset, const DiscoverOptions& options)
-      : dataset_(dataset), options_(options), observations_(MakeObservations(dataset)) {}
+  // swaps: what is already mended in the dataset.
+  Discoverer(const Dataset& dataset,
+             const std::vector<FaultFound>& swaps,
+             const DiscoverOptions& options)
+      : dataset_(dataset),
+        options_(options),
+        observations_(MakeObservations(dataset)),
+        faults_(swaps) {}
 
   Discovery Run() {
     MendFaults();
@@ -66,7 +74,8 @@ class Discoverer {
       machine.hexapod = dataset_.hexapod;
       machine.effects = {fault->effect};
       reported_ = ReportedPoses(dataset_, machine);
-      fault_ = fault;
+      faults_.push_back(*fault);
+      robot_is_mended_ = true;
     }
   }
 
@@ -75,11 +84,10 @@ class Discoverer {
     options.noise = options_.noise;
     options.threads = options_.threads;
     result_.base_and_tool = Calibrate(observations_, std::nullopt, options);
-    if (!fault_) return;
+    if (!robot_is_mended_) return;
     const ToolPoses tools = ComputeToolPoses(dataset_);
     for (std::size_t i = 0; i < observations_.items.size(); ++i)
       observations_.items[i].base_from_platform = reported_[tools.poses[i].pose];
-    before_fault_ = result_.base_and_tool;
     result_.base_and_tool = Calibrate(observations_, std::nullopt, options);
   }
 
@@ -194,7 +202,7 @@ class Discoverer {
       machine.hexapod->home = HomePose(&*machine.hexapod, reported_);
     if (observations_.tracker_from_world)
       machine.world_from_tracker = observations_.tracker_from_world->Inverse();
-    if (fault_) machine.effects.push_back(fault_->effect);
+    for (const FaultFound& fault : faults_) machine.effects.push_back(fault.effect);
     for (const Effect& effect : refit_.effects) {
       if (IsPoseMap(effect))
         machine.pose_map = PoseMapOf(effect);
@@ -219,6 +227,10 @@ class Discoverer {
     if (refit_.effects.empty()) return;
     result_.estimate.mounts = {refit_.mounts.world_from_base, refit_.mounts.platform_from_tool};
     result_.estimate.covariance = refit_.covariance.topLeftCorner<12, 12>();
+    // The base inherits the error of the frame that a tracker that stood still made of it.
+    const Matrix6d carry = InverseAdjoint(refit_.mounts.world_from_base);
+    result_.estimate.covariance.topLeftCorner<6, 6>() +=
+        carry * observations_.tracker_from_world_covariance * carry.transpose();
   }
 
   void Judge() {
@@ -325,9 +337,9 @@ class Discoverer {
   }
 
   void FillEffects() {
-    if (fault_) {
-      DiscoveredEffect found = AnswerFor(fault_->effect, dataset_);
-      found.log10_p = -fault_->gain / (2.0 * std::log(10.0));
+    for (const FaultFound& fault : faults_) {
+      DiscoveredEffect found = AnswerFor(fault.effect, dataset_);
+      found.log10_p = -fault.gain / (2.0 * std::log(10.0));
       found.p_value = std::pow(10.0, found.log10_p);
       result_.effects.push_back(std::move(found));
     }
@@ -422,8 +434,8 @@ class Discoverer {
   const DiscoverOptions& options_;
   Observations observations_;
   std::vector<Pose3d> reported_;
-  std::optional<FaultFound> fault_;
-  std::optional<Estimate> before_fault_;
+  std::vector<FaultFound> faults_;
+  bool robot_is_mended_ = false;
   GapData data_;
   FormLibrary library_;
   GapProblem problem_;
@@ -437,7 +449,12 @@ class Discoverer {
 }  // namespace
 
 Discovery Discover(const Dataset& dataset, const DiscoverOptions& options) {
-  return Discoverer(dataset, options).Run();
+  const std::vector<FaultFound> swaps = FindSwappedMarkers(dataset);
+  if (swaps.empty()) return Discoverer(dataset, {}, options).Run();
+  Dataset mended = dataset;
+  for (const FaultFound& swap : swaps)
+    mended.measurement = MendedMeasurement(*mended.measurement, {swap.effect});
+  return Discoverer(mended, swaps, options).Run();
 }
 
 }  // namespace hexcal

@@ -3,7 +3,9 @@
 
 #include <glog/logging.h>
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "discovery/site_jacobians.h"
 #include "geometry/linear_algebra.h"
@@ -38,14 +40,31 @@ Motion MotionOf(const FormDefinition& form, int k, const Visit& visit) {
     if (k > 0) effect.parameters[kind.OffsetOf("compliance")] = kind.ScaleOf(0);
     return CorrectionsBy(effect, k, visit);
   }
-  // Sine, then cosine, of each leg; a single pair moves all legs.
-  const int amplitude = kind.OffsetOf("amplitude"), phase = kind.OffsetOf("phase");
-  effect.parameters.segment<kNumLegs>(phase).setConstant(k % 2 == 0 ? 0.0 : 0.5 * M_PI);
-  if (form.size() == 2 * kNumLegs) return CorrectionsBy(effect, amplitude + k / 2, visit);
-  Motion sum;
-  for (int leg = 0; leg < kNumLegs; ++leg)
-    sum.leg += CorrectionsBy(effect, amplitude + leg, visit).leg;
-  return sum;
+  LOG(FATAL) << "a form of another kind: " << form.effect.name;
+}
+
+// Sine and cosine of all legs at one visit, for amplitudes 1.
+std::array<Vector6d, 2> WavesOf(const FormDefinition& form, const Visit& visit) {
+  const EffectKind& kind = *FindEffectKind(form.effect.name);
+  Effect effect = form.effect;
+  effect.parameters.segment<kNumLegs>(kind.OffsetOf("amplitude")).setOnes();
+  std::array<Vector6d, 2> waves;
+  for (const int part : {0, 1}) {
+    effect.parameters.segment<kNumLegs>(kind.OffsetOf("phase"))
+        .setConstant(part == 0 ? 0.0 : 0.5 * M_PI);
+    waves[part] = CorrectionsOf({effect}, visit).leg;
+  }
+  return waves;
+}
+
+// Sine, then cosine, of each leg; a single pair moves all legs.
+Motion PartOf(const std::array<Vector6d, 2>& waves, const FormDefinition& form, int k) {
+  Motion motion;
+  if (form.size() == 2 * kNumLegs)
+    motion.leg[k / 2] = waves[k % 2][k / 2];
+  else
+    motion.leg = waves[k % 2];
+  return motion;
 }
 
 // Columns of all forms at one machine.
@@ -64,11 +83,14 @@ class ColumnWriter {
              const Motion& here,
              const Visit& visit,
              int shape_at) {
+    std::array<Vector6d, 2> waves;
     for (std::size_t f = 0; f < library_.forms.size(); ++f) {
       const FormDefinition& form = library_.forms[f];
       if (form.shares >= 0) continue;
+      const bool is_wave = form.reading == FormDefinition::Reading::kPeriodic;
+      if (is_wave) waves = WavesOf(form, visit);
       for (int k = 0; k < form.size(); ++k) {
-        const Motion motion = MotionOf(form, k, visit);
+        const Motion motion = is_wave ? PartOf(waves, form, k) : MotionOf(form, k, visit);
         const int column = problem_->forms[f].first + k;
         auto cell = all_.block<6, 1>(6 * pose, column);
         cell = sites.Apply(motion);
@@ -220,10 +242,10 @@ GapData MakeGapData(const Dataset& dataset, const std::vector<Pose3d>& reported)
   return data;
 }
 
-GapProblem MakeGapProblem(const GapData& data,
-                          const Mounts& mounts,
-                          const std::vector<Effect>& effects,
-                          const FormLibrary& library) {
+std::optional<GapProblem> MakeGapProblemInReach(const GapData& data,
+                                                const Mounts& mounts,
+                                                const std::vector<Effect>& effects,
+                                                const FormLibrary& library) {
   GapProblem problem;
   const HexapodGeometry* hexapod = data.hexapod ? &*data.hexapod : nullptr;
   std::vector<Motion> corrections;
@@ -249,7 +271,7 @@ GapProblem MakeGapProblem(const GapData& data,
     const Visit& visit = data.visits[seen.row];
     const Motion here = corrections.empty() ? Motion() : corrections[seen.row];
     const ForwardPose at = Forward(mounts, hexapod, visit, here);
-    CHECK(at.reached) << "no pose for row " << seen.row;
+    if (!at.reached) return std::nullopt;
     problem.predicted.push_back(at.world_from_tool);
     linear.error.segment<6>(6 * k) = Minus(seen.world_from_tool, at.world_from_tool);
     const SiteJacobians sites = SitesOf(mounts, hexapod, visit, here, at);
@@ -267,6 +289,15 @@ GapProblem MakeGapProblem(const GapData& data,
   }
   writer.Finish();
   return problem;
+}
+
+GapProblem MakeGapProblem(const GapData& data,
+                          const Mounts& mounts,
+                          const std::vector<Effect>& effects,
+                          const FormLibrary& library) {
+  std::optional<GapProblem> problem = MakeGapProblemInReach(data, mounts, effects, library);
+  CHECK(problem) << "effects that put legs out of reach";
+  return *std::move(problem);
 }
 
 }  // namespace hexcal

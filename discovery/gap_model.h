@@ -40,5 +40,10 @@ GapProblem MakeGapProblem(const GapData& data,
                           const Mounts& mounts,
                           const std::vector<Effect>& effects,
                           const FormLibrary& library);
+// The same; nothing where the effects put legs out of reach.
+std::optional<GapProblem> MakeGapProblemInReach(const GapData& data,
+                                                const Mounts& mounts,
+                                                const std::vector<Effect>& effects,
+                                                const FormLibrary& library);
 
 }  // namespace hexcal

@@ -5,14 +5,19 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <utility>
 
+#include "discovery/common_world.h"
 #include "model/described_effect.h"
 
 namespace hexcal {
 namespace {
 
-constexpr int kIterations = 20;
-constexpr double kConverged = 1e-3;      // of a standard deviation
+constexpr int kIterations = 50;
+constexpr double kConverged = 1e-3;  // of a standard deviation
+constexpr double kLeastFall = 1e-9;  // of the squares: less is rounding
+constexpr int kHalvings = 12;
 constexpr double kHarmonicPrior = 30.0;  // in plausible sizes: as good as none
 
 bool IsCarrying(const Effect& effect, const EffectKind& kind, int number) {
@@ -106,26 +111,26 @@ class Refitter {
   Refitter(const GapData& data, const GapNoise& noise, double prior_width)
       : data_(data), noise_(noise), prior_width_(prior_width) {}
 
-  // Gauss-Newton from where refit stands.
+  // Gauss-Newton from where refit stands; a step that makes things worse is halved.
   void Run(Refit* refit) {
-    double squares = std::numeric_limits<double>::infinity();
     refit->converged = false;
+    FormLibrary library = FreeForms(refit->effects);
+    refit->problem = MakeGapProblem(data_, refit->mounts, refit->effects, library);
+    double objective = Objective(*refit, library);
+    double fall = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kIterations; ++i) {
-      const FormLibrary library = FreeForms(refit->effects);
-      refit->problem = MakeGapProblem(data_, refit->mounts, refit->effects, library);
       const JointFit fit = Fit(*refit, library);
       refit->covariance = fit.covariance;
       const Eigen::VectorXd deviation = fit.covariance.diagonal().cwiseSqrt();
       Eigen::VectorXd step(fit.mounts.size() + fit.coefficients.size());
       step << fit.mounts, fit.coefficients;
-      const double size = (step.array().abs() / deviation.array().max(1e-300)).maxCoeff();
       SetDeviations(deviation, library, &refit->effects);
-      if (size < kConverged || std::abs(squares - fit.squares) < 1e-9 * fit.squares) {
-        refit->converged = true;
-        return;
-      }
-      squares = fit.squares;
-      Move(step, library, refit);
+      const double size = (step.array().abs() / deviation.array().max(1e-300)).maxCoeff();
+      refit->converged = size < kConverged || fall < kLeastFall * objective;
+      if (refit->converged) return;
+      const double before = objective;
+      if (!Take(step, &library, refit, &objective)) return;
+      fall = before - objective;
     }
   }
 
@@ -163,6 +168,41 @@ class Refitter {
         effect.standard_deviation[number] = deviation[at];
       }
     }
+  }
+
+  // Whitened squares that are left, and what the priors add to them.
+  double Objective(const Refit& refit, const FormLibrary& library) const {
+    const LinearProblem& linear = refit.problem.linear;
+    double sum = WhitenPoseRows(linear, noise_, linear.error).squaredNorm() +
+                 WhitenShapeRows(linear, noise_, linear.shape_error).squaredNorm();
+    const Eigen::VectorXd mean = PriorMean(library);
+    Eigen::Index at = 0;
+    for (const FormDefinition& form : library.forms)
+      for (int k = 0; k < form.size(); ++k, ++at)
+        sum += std::pow(mean[at] / (prior_width_ * form.scale[k]), 2);
+    return sum;
+  }
+
+  // The longest of the step, its half, its quarter... that leads downhill. False: none does.
+  bool Take(const Eigen::VectorXd& step,
+            FormLibrary* library,
+            Refit* refit,
+            double* objective) const {
+    double share = 1.0;
+    for (int i = 0; i < kHalvings; ++i, share *= 0.5) {
+      Refit next = *refit;
+      Move(share * step, *library, &next);
+      FormLibrary there = FreeForms(next.effects);
+      std::optional<GapProblem> problem =
+          MakeGapProblemInReach(data_, next.mounts, next.effects, there);
+      if (!problem) continue;
+      next.problem = *std::move(problem);
+      const double found = Objective(next, there);
+      if (!(found <= *objective * (1.0 + kLeastFall))) continue;
+      *refit = std::move(next), *library = std::move(there), *objective = found;
+      return true;
+    }
+    return false;
   }
 
   const GapData& data_;
@@ -222,6 +262,7 @@ Refit RefitMachine(const GapData& data,
     if (effects[e].name == "leg_periodic")
       more = StartSecondHarmonic(data, noise, refit, e, &refit.effects[e]) || more;
   if (more) refitter.Run(&refit);
+  CorrectCommonWorld(data, FreeForms(refit.effects), &refit);
   return refit;
 }
 

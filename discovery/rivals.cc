@@ -85,10 +85,12 @@ std::vector<std::vector<Rival>> RivalsOf(const LinearProblem& problem,
                                          const std::vector<int>& chosen,
                                          bool kind_poses) {
   std::vector<std::vector<Rival>> all;
+  if (chosen.empty()) return all;
+  const Scorer alone(problem, noise);
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     std::vector<int> others = chosen;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(k));
-    const Scorer scorer(problem.With(others), noise);
+    const Scorer scorer = alone.Given(others);
     const std::vector<Scorer::FamilyScore> families = scorer.Families();
     const int family = problem.forms[chosen[k]].family;
     const std::string& name = problem.families[family].name;

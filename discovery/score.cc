@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <utility>
 
 #include "discovery/log_tail.h"
 #include "geometry/linear_algebra.h"
@@ -17,6 +19,9 @@ constexpr double kAbsorbed = 1e-9;
 constexpr double kRank = 1e-7;
 // The prior size is known to an order of magnitude or so: evidence is averaged over these widths.
 constexpr std::array<double, 5> kWidths = {0.3, 1.0, 3.0, 10.0, 30.0};
+
+// Where the likeliest width is looked for.
+constexpr double kNarrowest = 0.01, kWidest = 32.0, kFiner = 1.2589254117941673;  // ten a decade
 
 double LogSumExp(const std::vector<double>& terms) {
   const double most = *std::max_element(terms.begin(), terms.end());
@@ -82,34 +87,66 @@ class ShareToP {
 
 Scorer::Scorer(const LinearProblem& problem, const GapNoise& noise) : problem_(problem) {
   const Eigen::Index pose_rows = problem.error.size(), shape_rows = problem.shape_error.size();
-  columns_.setZero(pose_rows + shape_rows, problem.columns->cols());
-  columns_.topRows(pose_rows) = WhitenPoseRows(problem, noise, *problem.columns);
+  auto columns = std::make_shared<Eigen::MatrixXd>(pose_rows + shape_rows, problem.columns->cols());
+  columns->topRows(pose_rows) = WhitenPoseRows(problem, noise, *problem.columns);
+  columns->bottomRows(shape_rows).setZero();
   if (shape_rows > 0) {
     const Eigen::MatrixXd shape = WhitenShapeRows(problem, noise, *problem.shape_columns);
     for (std::size_t k = 0; k < problem.shape_of.size(); ++k)
       if (problem.shape_of[k] >= 0)
-        columns_.col(k).bottomRows(shape_rows) = shape.col(problem.shape_of[k]);
+        columns->col(k).bottomRows(shape_rows) = shape.col(problem.shape_of[k]);
   }
+  columns_ = std::move(columns);
   const Eigen::MatrixXd nuisance = Stacked(WhitenPoseRows(problem, noise, problem.nuisance),
                                            WhitenShapeRows(problem, noise, problem.shape_nuisance));
   const Eigen::VectorXd error = Stacked(WhitenPoseRows(problem, noise, problem.error),
                                         WhitenShapeRows(problem, noise, problem.shape_error));
   basis_ = OrthonormalBasis(nuisance, kRank);
-  along_ = basis_.transpose() * columns_;
+  along_ = basis_.transpose() * *columns_;
   residual_ = error - basis_ * (basis_.transpose() * error);
   freedom_ = static_cast<int>(pose_rows - basis_.cols());
   for (const int rows : problem.shape_freedom) freedom_ += rows;
+  ScoreAll();
+}
 
-  const Eigen::VectorXd product = columns_.transpose() * residual_;
+Scorer Scorer::Given(const std::vector<int>& forms) const {
+  Eigen::Index count = 0;
+  for (const int f : forms) count += problem_.forms[f].size;
+  Eigen::MatrixXd extra(residual_.size(), count);
+  Eigen::Index at = 0;
+  for (const int f : forms)
+    for (int k = 0; k < problem_.forms[f].size; ++k) {
+      const auto column = columns_->col(problem_.forms[f].first + k);
+      const double length = column.norm();
+      const Eigen::VectorXd left = column - basis_ * (basis_.transpose() * column);
+      // What the nuisances hold already is rounding, and must not be scaled up.
+      if (length > 0.0 && left.norm() > kRank * length) extra.col(at++) = left / length;
+    }
+  const Eigen::MatrixXd more = OrthonormalBasis(extra.leftCols(at), kRank);
+  Scorer given = *this;
+  given.problem_ = problem_.With(forms);
+  given.basis_.conservativeResize(Eigen::NoChange, basis_.cols() + more.cols());
+  given.basis_.rightCols(more.cols()) = more;
+  given.along_.conservativeResize(basis_.cols() + more.cols(), Eigen::NoChange);
+  given.along_.bottomRows(more.cols()) = more.transpose() * *columns_;
+  given.residual_ -= more * (more.transpose() * residual_);
+  given.freedom_ -= static_cast<int>(more.cols());
+  given.ScoreAll();
+  return given;
+}
+
+void Scorer::ScoreAll() {
+  blocks_.clear(), scores_.clear();
+  const Eigen::VectorXd product = columns_->transpose() * residual_;
   const double squared = residual_.squaredNorm();
-  for (std::size_t f = 0; f < problem.forms.size(); ++f) {
-    blocks_.push_back(MakeBlock(problem.forms[f]));
+  for (std::size_t f = 0; f < problem_.forms.size(); ++f) {
+    blocks_.push_back(MakeBlock(problem_.forms[f]));
     scores_.push_back(MakeScore(static_cast<int>(f), product, squared));
   }
 }
 
 Scorer::Block Scorer::MakeBlock(const Form& form) const {
-  const auto g = columns_.middleCols(form.first, form.size);
+  const auto g = columns_->middleCols(form.first, form.size);
   const auto q = along_.middleCols(form.first, form.size);
   const auto d = problem_.scale.segment(form.first, form.size).asDiagonal();
   const Eigen::MatrixXd whole = d * (g.transpose() * g) * d;
@@ -187,7 +224,7 @@ std::vector<Scorer::FamilyScore> Scorer::Families() const {
 
 Eigen::MatrixXd Scorer::FamilyMaxima(Eigen::MatrixXd draws) const {
   draws -= basis_ * (basis_.transpose() * draws).eval();
-  const Eigen::MatrixXd products = columns_.transpose() * draws;
+  const Eigen::MatrixXd products = columns_->transpose() * draws;
   const Eigen::VectorXd squared = draws.colwise().squaredNorm();
   Eigen::MatrixXd maxima =
       Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(problem_.families.size()), draws.cols());
@@ -218,7 +255,7 @@ Eigen::VectorXd Scorer::Coefficients(int f, double prior_scale) const {
   const Block& block = blocks_[f];
   const Eigen::VectorXd scale = problem_.scale.segment(form.first, form.size);
   const Eigen::VectorXd product =
-      scale.cwiseProduct(columns_.middleCols(form.first, form.size).transpose() * residual_);
+      scale.cwiseProduct(columns_->middleCols(form.first, form.size).transpose() * residual_);
   const auto directions = block.directions.leftCols(block.rank);
   const double prior = prior_scale > 0.0 ? 1.0 / (prior_scale * prior_scale) : 0.0;
   const Eigen::VectorXd amount =
@@ -239,9 +276,9 @@ Eigen::MatrixXd Scorer::CoefficientCovariance(int f) const {
 double Scorer::LikeliestWidth(int f) const {
   const Form& form = problem_.forms[f];
   const Block& block = blocks_[f];
-  const Eigen::VectorXd projected = Rotated(form, block, columns_.transpose() * residual_);
-  double best = kWidths[0], most = -1e300;
-  for (const double width : kWidths) {
+  const Eigen::VectorXd projected = Rotated(form, block, columns_->transpose() * residual_);
+  double best = kNarrowest, most = -1e300;
+  for (double width = kNarrowest; width < kWidest; width *= kFiner) {
     const double evidence = EvidenceAt(width, block.squares, projected, block.rank);
     if (evidence > most) most = evidence, best = width;
   }
@@ -252,13 +289,13 @@ double Scorer::Explained(int effect, int rival) const {
   const Form& a = problem_.forms[effect];
   const Form& b = problem_.forms[rival];
   const Eigen::VectorXd c = Coefficients(effect, 0.0);
-  const Eigen::VectorXd whole = columns_.middleCols(a.first, a.size) * c;
+  const Eigen::VectorXd whole = columns_->middleCols(a.first, a.size) * c;
   const Eigen::VectorXd signal = whole - basis_ * (basis_.transpose() * whole);
   const double total = signal.squaredNorm();
   if (!(total > 0.0) || blocks_[rival].rank == 0) return 0.0;
   const Eigen::VectorXd product =
       problem_.scale.segment(b.first, b.size)
-          .cwiseProduct(columns_.middleCols(b.first, b.size).transpose() * signal);
+          .cwiseProduct(columns_->middleCols(b.first, b.size).transpose() * signal);
   const Block& block = blocks_[rival];
   return (block.directions.leftCols(block.rank).transpose() * product)
              .cwiseAbs2()

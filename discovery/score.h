@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "discovery/gap_noise.h"
@@ -24,6 +25,10 @@ struct Score {
 class Scorer {
  public:
   Scorer(const LinearProblem& problem, const GapNoise& noise);
+
+  // The same under the same noise, with these forms among the nuisances: problem.With(forms), at a
+  // fraction of its cost.
+  Scorer Given(const std::vector<int>& forms) const;
 
   // The data themselves.
   const std::vector<Score>& scores() const { return scores_; }
@@ -64,13 +69,15 @@ class Scorer {
   Eigen::VectorXd Rotated(const Form& form,
                           const Block& block,
                           const Eigen::VectorXd& product) const;
+  void ScoreAll();
   Block MakeBlock(const Form& form) const;
   Score MakeScore(int form, const Eigen::VectorXd& product, double squared) const;
 
-  const LinearProblem problem_;  // its columns are shared
-  Eigen::MatrixXd columns_;      // whitened, pose rows then shape rows; not projected
-  Eigen::MatrixXd basis_;        // of the nuisances
-  Eigen::MatrixXd along_;        // basis' columns
+  LinearProblem problem_;  // its columns are shared
+  // Whitened, pose rows then shape rows; not projected. Shared with what is given more.
+  std::shared_ptr<const Eigen::MatrixXd> columns_;
+  Eigen::MatrixXd basis_;  // of the nuisances
+  Eigen::MatrixXd along_;  // basis' columns
   Eigen::VectorXd residual_;
   int freedom_ = 0;
   std::vector<Block> blocks_;

@@ -168,7 +168,7 @@ class Selector {
       if (!is_present && (tried >= kBeam || first.evidence < firsts[0].evidence - kBeamDepth))
         continue;
       ++tried;
-      const Scorer given(problem_.With({first.best.form}), noise);
+      const Scorer given = alone.Given({first.best.form});
       const std::vector<FamilyScore> seconds = given.Families();
       const int second = FirstOf(seconds, [](std::size_t) { return true; });
       if (second < 0 || problem_.families[seconds[second].family].is_last_resort) continue;
@@ -194,10 +194,10 @@ class Selector {
   void ChooseAnew() {
     for (int round = 0; round < 3; ++round) {
       bool changed = false;
-      const GapNoise noise = NoiseWith(result_.chosen);
+      const Scorer alone(problem_, NoiseWith(result_.chosen));
       for (std::size_t k = 0; k < result_.chosen.size(); ++k) {
         const int family = problem_.forms[result_.chosen[k]].family;
-        const Scorer scorer(problem_.With(Without(k)), noise);
+        const Scorer scorer = alone.Given(Without(k));
         for (const FamilyScore& score : scorer.Families())
           if (score.family == family && score.best.form != result_.chosen[k])
             result_.chosen[k] = score.best.form, changed = true;

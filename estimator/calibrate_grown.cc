@@ -11,6 +11,7 @@
 #include "estimator/free_effect.h"
 #include "estimator/grown_fit.h"
 #include "measurement/tool_pose.h"
+#include "model/data_fault.h"
 #include "model/machine_rows.h"
 #include "model/predict.h"
 #include "residuals/whitener.h"
@@ -227,7 +228,13 @@ class Grower {
 GrownCalibration CalibrateGrown(const Dataset& dataset,
                                 const Machine& model,
                                 const CalibrateOptions& options) {
-  return Grower(dataset, model, options).Run();
+  const bool has_swap = std::any_of(model.effects.begin(), model.effects.end(), [](const auto& e) {
+    return e.name == "swapped_markers";
+  });
+  if (!has_swap) return Grower(dataset, model, options).Run();
+  Dataset mended = dataset;
+  mended.measurement = MendedMeasurement(*dataset.measurement, model.effects);
+  return Grower(mended, model, options).Run();
 }
 
 }  // namespace hexcal

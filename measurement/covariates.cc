@@ -68,6 +68,8 @@ Unit ReadUnit(const YamlNode& node, const std::string& name) {
 
 }  // namespace
 
+bool HasMeaning(std::string_view name) { return FindMeaning(name) != nullptr; }
+
 std::vector<CovariateDeclaration> ReadCovariates(const YamlNode* node) {
   std::vector<CovariateDeclaration> covariates;
   if (node == nullptr) return covariates;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "config/strict_yaml.h"
@@ -14,6 +15,9 @@ struct CovariateDeclaration {
   Unit unit;
   Location where;
 };
+
+// Whether the name of a covariate says what it is: time, temperature, payload, a velocity...
+bool HasMeaning(std::string_view name);
 
 // The mapping under covariates: (nullptr: none). InputError for a unit that is not known, or not of
 // the kind that a name with a meaning asks for (time in a time unit, ...).

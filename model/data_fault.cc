@@ -153,6 +153,29 @@ RobotPoses MendedRobotPoses(const RobotPoses& robot_poses,
   return mended;
 }
 
+Measurement MendedMeasurement(const Measurement& measurement, const std::vector<Effect>& effects) {
+  Measurement mended = measurement;
+  if (measurement.kind != Measurement::Kind::kMarkers) return mended;
+  const int in_base = static_cast<int>(measurement.bodies[0].markers.size());
+  const int all = in_base + static_cast<int>(measurement.bodies[1].markers.size());
+  for (const Effect& effect : effects) {
+    if (effect.name != "swapped_markers") continue;
+    CHECK_EQ(effect.index.size(), 2u) << "swapped_markers: two markers";
+    if (const int most = std::max(effect.index[0], effect.index[1]); most > all)
+      throw InputError(measurement.where,
+                       fmt::format("{} markers", all),
+                       fmt::format("marker {}, which swapped_markers names", most));
+    for (MarkerReading& reading : mended.readings) {
+      const int number = 1 + reading.marker + (reading.body == BodyId::kBase ? 0 : in_base);
+      if (number != effect.index[0] && number != effect.index[1]) continue;
+      const int right = effect.index[0] + effect.index[1] - number - 1;
+      reading.body = right < in_base ? BodyId::kBase : BodyId::kTool;
+      reading.marker = right < in_base ? right : right - in_base;
+    }
+  }
+  return mended;
+}
+
 std::vector<int> MarkersAsRead(const std::vector<Effect>& effects, int markers) {
   std::vector<int> read(markers);
   std::iota(read.begin(), read.end(), 0);

@@ -36,6 +36,10 @@ RobotPoses MendedRobotPoses(const RobotPoses& robot_poses,
                             const std::vector<Effect>& effects,
                             const HexapodGeometry* hexapod);
 
+// The readings under the names that they should carry, faults mended one after another. InputError
+// where a marker's number is beyond the bodies'. Measured poses stay as they are.
+Measurement MendedMeasurement(const Measurement& measurement, const std::vector<Effect>& effects);
+
 // The markers' names as they are read, markers from 0, base body first: reading m is of marker
 // result[m].
 std::vector<int> MarkersAsRead(const std::vector<Effect>& effects, int markers);

@@ -3,7 +3,9 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hexcal {
 namespace {
@@ -24,6 +26,10 @@ const std::vector<std::string>& DriverNames() {
   return names;
 }
 
+bool IsDriverName(const std::string& driver) {
+  return std::count(DriverNames().begin(), DriverNames().end(), driver) > 0;
+}
+
 Vector6d DriverOf(const Visit& visit, const std::string& driver) {
   if (driver == "leg_length") return visit.lengths;
   if (driver == "time") return Vector6d::Constant(std::isnan(visit.time) ? visit.row : visit.time);
@@ -33,7 +39,9 @@ Vector6d DriverOf(const Visit& visit, const std::string& driver) {
   for (int k = 0; k < 6; ++k)
     if (driver == kAxes[k])
       return Vector6d::Constant(k < 3 ? pose.translation[k] : Log(pose.rotation)[k - 3]);
-  LOG(FATAL) << "no driver called " << driver;
+  const auto other = visit.others.find(driver);
+  return Vector6d::Constant(other != visit.others.end() ? other->second
+                                                        : std::numeric_limits<double>::quiet_NaN());
 }
 
 Effect DescribedEffect(const std::string& site,

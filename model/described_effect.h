@@ -15,8 +15,10 @@ namespace hexcal {
 // site and driver in words, the reference centre, half_range and power.
 
 // Drivers that every visit may have, in the driver's own unit; x..rz are the translation and the
-// rotation vector of the reported pose.
+// rotation vector of the reported pose. A covariate without a meaning of its own is one by its
+// name.
 const std::vector<std::string>& DriverNames();
+bool IsDriverName(const std::string& driver);
 // One value a leg; the same six where the driver is not of the legs. NaN: not known.
 Vector6d DriverOf(const Visit& visit, const std::string& driver);
 

@@ -165,16 +165,15 @@ void CheckFault(const Effect& effect, const Location& where) {
 void CheckDescription(const Effect& effect, const Location& where) {
   if (effect.name != kUnknownEffect || effect.parameters.size() == 0) return;
   static const std::vector<std::string> kSites = {"base", "tool", "leg"};
-  const auto has = [&](const char* name, const std::vector<std::string>& words) {
-    const auto found = effect.found.find(name);
-    return found != effect.found.end() && std::count(words.begin(), words.end(), found->second) > 0;
-  };
-  if (!has("site", kSites) || !has("driver", DriverNames()) || effect.reference.empty())
+  const auto site = effect.found.find("site"), driver = effect.found.find("driver");
+  const bool has_site =
+      site != effect.found.end() && std::count(kSites.begin(), kSites.end(), site->second) > 0;
+  if (!has_site || driver == effect.found.end() || effect.reference.empty())
     throw InputError(where,
                      "an unknown effect with coefficients that does not say of what",
                      "reference: with centre, half_range and power, and found: with site (base, "
                      "tool, leg) and driver (time, temperature, payload, leg_length, x, y, z, rx, "
-                     "ry, rz)");
+                     "ry, rz, or the name of a covariate)");
 }
 
 void CheckMarkers(const Effect& effect, const Location& where) {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "model/described_effect.h"
+
 namespace hexcal {
 namespace {
 
@@ -42,6 +44,11 @@ void RequireMarkers(const Dataset& dataset, const Effect& effect) {
   }
 }
 
+bool HasCovariate(const Dataset& dataset, const std::string& name) {
+  const std::vector<Covariate>& all = dataset.robot_poses.covariates;
+  return std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
+}
+
 // Of a description that stands in for an effect without a name.
 void RequireDriver(const Dataset& dataset, const Drivers& drivers, const Effect& unknown) {
   const auto driver = unknown.found.find("driver");
@@ -50,6 +57,8 @@ void RequireDriver(const Dataset& dataset, const Drivers& drivers, const Effect&
     ThrowLacks(dataset, unknown, "a temperature column");
   if (driver->second == "payload" && !drivers.payload)
     ThrowLacks(dataset, unknown, "a payload column");
+  if (!IsDriverName(driver->second) && !HasCovariate(dataset, driver->second))
+    ThrowLacks(dataset, unknown, fmt::format("a {} column", driver->second));
   const bool is_of_legs = driver->second == "leg_length" || unknown.found.at("site") == "leg";
   if (is_of_legs && !drivers.legs)
     ThrowLacks(dataset, unknown, "a hexapod with base_joints and platform_joints");

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "geometry/align_points.h"
+#include "measurement/covariates.h"
 
 namespace hexcal {
 namespace {
@@ -95,6 +96,8 @@ void VisitSequence::ReadCovariates(Visit& visit) const {
   visit.gravity_in_base = dataset_.gravity_in_base.value_or(Eigen::Vector3d::Constant(kNotKnown));
   for (int k = 0; k < 6; ++k)
     visit.velocity[k] = ValueOf(dataset_, kVelocities[k], row_, kNotKnown);
+  for (const Covariate& covariate : dataset_.robot_poses.covariates)
+    if (!HasMeaning(covariate.name)) visit.others[covariate.name] = covariate.values[row_];
 }
 
 void VisitSequence::MoveLegs(Visit& visit) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "geometry/pose.h"
@@ -23,6 +25,7 @@ struct Visit {
   Eigen::Vector3d payload_centre = Eigen::Vector3d::Zero();   // frame A, m; zero where not given
   Eigen::Vector3d gravity_in_base = Eigen::Vector3d::Zero();  // unit vector
   Vector6d velocity = Vector6d::Zero();  // of A when read, frame A, [m/s, rad/s]
+  std::map<std::string, double> others;  // covariates that have no meaning of their own
 
   // With a hexapod; else all zero.
   LegLengths lengths = LegLengths::Zero();       // that the controller reports, m

@@ -11,6 +11,7 @@
 #include "estimator/calibrate.h"
 #include "model/described_effect.h"
 #include "model/predict.h"
+#include "model/simulate.h"
 
 namespace hexcal {
 namespace {
@@ -19,8 +20,10 @@ const std::string kExample = HEXCAL_EXAMPLES "/hidden-effect/dataset.yaml";
 
 class GapModel : public ::testing::Test {
  protected:
-  void SetUp() override {
-    dataset_ = ReadDataset(kExample, true);
+  void SetUp() override { Take(ReadDataset(kExample, true)); }
+
+  void Take(const Dataset& dataset) {
+    dataset_ = dataset;
     data_ = MakeGapData(dataset_, ReportedPoses(dataset_));
     const Estimate estimate = Calibrate(MakeObservations(dataset_), std::nullopt, {});
     mounts_ = {estimate.mounts.world_from_base, estimate.mounts.platform_from_tool};
@@ -80,6 +83,32 @@ TEST_F(GapModel, ColumnsAreDerivativesOfTheExactModel) {
   }
   EXPECT_EQ(done.size(), library_.families.size());
   EXPECT_GT(compared, 100);
+}
+
+// A tracker that stood still sees the base once; what moves its readings of the tool moves the
+// pose.
+TEST_F(GapModel, ReadingsMoveThePoseUnderAStaticTrackerToo) {
+  Dataset seen = dataset_;
+  seen.tracker.is_static = true;
+  Machine machine;
+  machine.world_from_base = mounts_.world_from_base;
+  machine.platform_from_tool = mounts_.platform_from_tool;
+  Take(Simulate(seen, machine, {}));
+  ASSERT_TRUE(problem_.seen[0].bodies[0].markers.empty());
+  std::set<std::string> moving;
+  for (std::size_t f = 0; f < library_.forms.size(); ++f) {
+    const FormDefinition& form = library_.forms[f];
+    const EffectKind* kind = FindEffectKind(form.effect.name);
+    if (kind == nullptr || (kind->site != "tracker" && kind->site != "marker")) continue;
+    if (!moving.insert(form.effect.name).second) continue;
+    for (int k = 0; k < form.size(); ++k) {
+      const Eigen::VectorXd expected =
+          problem_.linear.columns->col(problem_.linear.forms[f].first + k);
+      const Eigen::VectorXd pose = Taken(form, k).first;
+      EXPECT_LT((pose - expected).norm(), 1e-3 * expected.norm() + 1e-3) << form.effect.name << k;
+    }
+  }
+  EXPECT_EQ(moving.count("tracker_warmup") + moving.count("marker_offset"), 2u);
 }
 
 TEST_F(GapModel, ShapesHaveNoRigidMotionInThem) {

@@ -89,6 +89,27 @@ TEST(Score, WhatNuisancesExplainHasRankZero) {
   for (const auto& family : scorer.Families()) EXPECT_NE(family.family, 2);
 }
 
+TEST(Score, GivenFormsAreNuisances) {
+  auto rng = SeededByTest();
+  const LinearProblem problem = MakeProblem(rng);
+  GapNoise noise = UnitNoise();
+  noise.factor[0] = 1.7;
+  // The second explains itself away; the third is a combination of nuisances, and adds nothing.
+  const Scorer given = Scorer(problem, noise).Given({1, 2});
+  const Scorer with(problem.With({1, 2}), noise);
+  EXPECT_EQ(given.freedom(), with.freedom());
+  EXPECT_NEAR(given.squared_residual(), with.squared_residual(), 1e-9);
+  ASSERT_EQ(given.scores().size(), with.scores().size());
+  for (const int f : {0, 1, 2}) {
+    EXPECT_EQ(given.scores()[f].rank, with.scores()[f].rank);
+    EXPECT_EQ(given.scores()[f].rank, f == 0 ? 1 : 0);
+    EXPECT_NEAR(given.scores()[f].gain, with.scores()[f].gain, 1e-9);
+    EXPECT_NEAR(given.scores()[f].evidence, with.scores()[f].evidence, 1e-9);
+    EXPECT_NEAR(given.scores()[f].log10_p, with.scores()[f].log10_p, 1e-9);
+  }
+  EXPECT_LT((given.Coefficients(0, 0.0) - with.Coefficients(0, 0.0)).norm(), 1e-9);
+}
+
 TEST(Score, EvidenceIsTheIntegralOverThePrior) {
   auto rng = SeededByTest();
   const LinearProblem problem = MakeProblem(rng);
