@@ -95,6 +95,7 @@ nlohmann::ordered_json AsJson(const Trial& trial) {
   json["before"] = trial.before;
   json["after"] = trial.after;
   json["oracle"] = trial.oracle;
+  json["noise"] = trial.noise;
   if (!trial.error.empty()) json["error"] = trial.error;
   return json;
 }

@@ -8,6 +8,7 @@
 
 #include "hidden/as_dataset.h"
 #include "hidden/pose_fit.h"
+#include "measurement/tool_pose.h"
 #include "model/predict.h"
 
 namespace hexcal::hidden {
@@ -50,8 +51,17 @@ double HeldoutRms(const Case& made, const Machine& machine, const Dataset& datas
   return std::sqrt(square / rows);
 }
 
+// Root mean square of a measured tool's position.
+double MeasuredNoise(const Dataset& dataset) {
+  double sum = 0.0;
+  const ToolPoses tools = ComputeToolPoses(dataset);
+  for (const ToolPose& tool : tools.poses) sum += tool.covariance.topLeftCorner<3, 3>().trace();
+  return std::sqrt(sum / static_cast<double>(tools.poses.size()));
+}
+
 void JudgeHeldout(const Case& made, const Discovery& discovery, Trial* trial) {
   Dataset dataset = AsDataset(made);
+  trial->noise = MeasuredNoise(dataset);
   dataset.measurement.reset();
   Machine mounts;
   mounts.world_from_base = discovery.base_and_tool.mounts.world_from_base;
@@ -123,6 +133,12 @@ bool Trial::IsConfidentlyWrong() const {
 }
 
 bool Trial::IsWrong() const { return !found.empty() && !IsUnknownOrRightSite(); }
+
+bool Trial::IsWorse() const { return after > 1.02 * before; }
+
+bool Trial::IsWorseAsMeasured() const {
+  return std::hypot(after, noise) > 1.02 * std::hypot(before, noise);
+}
 
 double Trial::GapClosed() const {
   const double gap = before * before - oracle * oracle;

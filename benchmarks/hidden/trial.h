@@ -33,6 +33,7 @@ struct Trial {
   // Root mean square distance of the tool's position in the held-out rows from the truth, m: base
   // and tool alone, the discovered machine, a refit that knows the effects.
   double before = 0.0, after = 0.0, oracle = 0.0;
+  double noise = 0.0;  // of a tool's position as measured, m: what held-out readings add to these
 
   bool IsAlarm() const { return verdict != "agrees" || !found.empty(); }
   bool NamesFirst() const;      // the first name is the first truth's
@@ -45,6 +46,8 @@ struct Trial {
   bool IsUnknownOrRightSite() const;
   bool IsConfidentlyWrong() const;  // one name, no class, of another site
   bool IsWrong() const;             // a name or a class, none of it unknown or of the site
+  bool IsWorse() const;             // held out, by more than 2 % against the truth
+  bool IsWorseAsMeasured() const;   // and against readings with their noise, as users see it
   double GapClosed() const;  // of what the oracle closes; NaN where that is too little to tell
 };
 
