@@ -20,10 +20,10 @@ using Place = Eigen::Matrix<double, 7, 1>;
 constexpr int kOrientations = 8;  // four yaws, z up or down
 constexpr int kDraws = 30;        // of each
 constexpr int kRefined = 3;
-constexpr double kStep = 1e-4;         // of the differences, in sigmas of the prior
-constexpr double kNoGain = 1e10;       // cost of what cannot be
-constexpr int kSamples = 400;          // of the bounds
-constexpr double kTail = 5.0;          // freedom of Student's t that they are drawn from
+constexpr double kStep = 1e-6;    // of the differences, in sigmas of the prior: rounding is less
+constexpr double kNoGain = 1e10;  // cost of what cannot be
+constexpr int kSamples = 400;     // of the bounds
+constexpr double kTail = 5.0;     // freedom of Student's t that they are drawn from
 constexpr double kLikelyWidth = 5e-4;  // m, within a factor of 3 or so
 
 struct Drawing {
@@ -82,8 +82,7 @@ class Cost final : public ceres::FirstOrderFunction {
     if (!place.allFinite()) return false;
     *cost = At(place);
     for (int k = 0; gradient != nullptr && k < 7; ++k)
-      gradient[k] =
-          (At(place + kStep * Place::Unit(k)) - At(place - kStep * Place::Unit(k))) / (2.0 * kStep);
+      gradient[k] = (At(place + kStep * Place::Unit(k)) - *cost) / kStep;
     return *cost < kNoGain;
   }
 
