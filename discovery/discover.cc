@@ -125,8 +125,7 @@ class Discoverer {
     if (!geometry_) return;
     GeometryClass& report = geometry_->report;
     report.heldout_map = held_.after;
-    report.is_in_model =
-        options_.folds >= 2 && report.heldout.chi_square < report.heldout_map.chi_square;
+    report.is_in_model = options_.folds >= 2 && Wins(report);
     if (report.is_in_model) {
       selection_.noise = geometry_->noise;
       held_.before = geometry_->heldout_before, held_.after = geometry_->heldout_after;
@@ -426,7 +425,8 @@ class Discoverer {
         std::any_of(result_.effects.begin(), result_.effects.end(), [](const auto& e) {
           return e.effect.name == kUnknownEffect;
         });
-    const bool stopped_early = !HasGeometry() && selection_.steps.back().added >= 0;
+    const bool stopped_early =
+        HasGeometry() ? !geometry_->report.is_complete : selection_.steps.back().added >= 0;
     return has_unknown || stopped_early ? Verdict::kPartlyExplained : Verdict::kExplained;
   }
 

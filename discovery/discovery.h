@@ -114,6 +114,7 @@ struct Bound {
 // is determined weakly.
 struct GeometryClass {
   bool is_in_model = false;   // it foretold poses better than a map of the pose did
+  bool is_complete = false;   // no map of the pose explains more beside it
   std::vector<Bound> bounds;  // radii, half angles of the pairs, heights
   double yaw = 0.0;           // of the base's first pair, rad
   double error_size = 0.0;    // 1-sigma of joints and legs that the data make likely, m

@@ -36,7 +36,10 @@ std::string GeometrySentence(const GeometryClass& geometry) {
       1e3 * geometry.error_size);
   for (std::size_t k = 0; k < geometry.bounds.size(); ++k)
     text += (k > 0 ? ", " : "") + Range(geometry.bounds[k]);
-  return text + "; in parentheses 95 % bounds, given how its frames lie.";
+  text += "; in parentheses 95 % bounds, given how its frames lie.";
+  if (!geometry.is_complete)
+    text += " A map of the pose explains more beside it, so it is not the whole cause.";
+  return text;
 }
 
 std::vector<Rival> GeometryRivals(const GeometryClass& geometry) {

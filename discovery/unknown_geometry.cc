@@ -20,6 +20,8 @@ namespace {
 constexpr const char* kErrors[] = {
     "leg_offset", "leg_gain", "base_joint_offset", "platform_joint_offset"};
 constexpr double kKeep = 3.0;  // -log10 p that an effect must keep when the errors are there
+// Of the map's held-out chi-square: what a cause that is not the whole one must do better than.
+constexpr double kMuchBetter = 0.5;
 
 // Base, tool and the errors of a part of the poses, from their own search.
 struct Trained {
@@ -93,6 +95,17 @@ LinearProblem WithErrors(const LinearProblem& problem,
   with.shape_nuisance.conservativeResize(Eigen::NoChange, at + kGeometryErrors);
   with.shape_nuisance.rightCols(kGeometryErrors).setZero();
   return with;
+}
+
+// Whether no map of the pose explains anything beside these errors.
+bool IsComplete(const LinearProblem& with_errors,
+                const GapNoise& noise,
+                const FormLibrary& library) {
+  for (std::size_t form = 0; form < library.forms.size(); ++form)
+    if (IsPoseMap(library.forms[form].effect) &&
+        -Scorer(with_errors.Only({static_cast<int>(form)}), noise).scores()[0].log10_p >= kKeep)
+      return false;
+  return true;
 }
 
 // Of some forms those that explain something that these errors do not.
@@ -180,6 +193,8 @@ class GeometryFinder {
                                    selection.noise,
                                    Left(gap, trained),
                                    static_cast<int>(given.nuisance.cols()) + taken);
+    geometry.report.is_complete =
+        IsComplete(WithErrors(given, gap, MakeHexapod(trained.found->nominal)), noise, library);
     geometry.noise = noise;
     if (folds >= 2) {
       const HeldOutErrors errors = HoldOutGeometry(gap, noise, search, folds, seed);
@@ -229,6 +244,11 @@ class GeometryFinder {
 };
 
 }  // namespace
+
+bool Wins(const GeometryClass& geometry) {
+  const double left = geometry.heldout.chi_square / geometry.heldout_map.chi_square;
+  return left < (geometry.is_complete ? 1.0 : kMuchBetter);
+}
 
 bool IsGeometryError(const std::string& name) {
   return std::find(std::begin(kErrors), std::end(kErrors), name) != std::end(kErrors);

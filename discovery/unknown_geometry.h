@@ -43,6 +43,10 @@ std::optional<UnknownGeometry> FindUnknownGeometry(const GapData& data,
                                                    int folds,
                                                    std::uint64_t seed);
 
+// Whether it is to take the map's place: it foretells poses better, and leaves nothing that follows
+// the pose or foretells them much better. heldout and heldout_map are known.
+bool Wins(const GeometryClass& geometry);
+
 // Whether this is the name of one of the errors.
 bool IsGeometryError(const std::string& name);
 

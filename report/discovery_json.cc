@@ -61,6 +61,7 @@ Json GeometryObject(const GeometryClass& geometry) {
                           {"upper", bound.upper},
                           {"unit", bound.unit}};
   return {{"in_model", geometry.is_in_model},
+          {"complete", geometry.is_complete},
           {"bounds", bounds},
           {"yaw", geometry.yaw},
           {"error_size", geometry.error_size},

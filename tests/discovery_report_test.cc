@@ -51,10 +51,17 @@ TEST(DiscoveryJson, SaysWhatIsKnownOfUnpublishedLegs) {
   geometry.after.chi_square = 400.0;
   geometry.heldout.rms_position = 4e-5, geometry.heldout_map.rms_position = 6e-5;
   const Json json = Written(discovery)["leg_geometry"];
-  EXPECT_THAT(
-      KeysOf(json),
-      ElementsAre("in_model", "bounds", "yaw", "error_size", "after", "heldout", "heldout_map"));
+  EXPECT_THAT(KeysOf(json),
+              ElementsAre("in_model",
+                          "complete",
+                          "bounds",
+                          "yaw",
+                          "error_size",
+                          "after",
+                          "heldout",
+                          "heldout_map"));
   EXPECT_EQ(json["in_model"], true);
+  EXPECT_EQ(json["complete"], false);
   const Json& radius = json["bounds"]["base_radius"];
   EXPECT_THAT(KeysOf(radius), ElementsAre("value", "lower", "upper", "unit"));
   EXPECT_EQ(radius["value"], 0.5);

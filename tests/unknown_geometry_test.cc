@@ -107,6 +107,7 @@ TEST(UnknownGeometry, WinsAgainstTheMapWhereItIsTheCause) {
   ASSERT_TRUE(discovery.leg_geometry.has_value());
   const GeometryClass& geometry = *discovery.leg_geometry;
   EXPECT_TRUE(geometry.is_in_model);
+  EXPECT_TRUE(geometry.is_complete);
   EXPECT_LT(geometry.heldout.chi_square, geometry.heldout_map.chi_square);
   EXPECT_EQ(discovery.verdict, Verdict::kExplained);
   ASSERT_EQ(discovery.effects.size(), 1u);
@@ -193,6 +194,28 @@ TEST(UnknownGeometry, LeavesADriftInTheModel) {
   for (const DiscoveredEffect& found : discovery.effects) names.insert(found.effect.name);
   EXPECT_EQ(names, (std::set<std::string>{"base_drift", "base_joint_offset"}));
   EXPECT_NEAR(discovery.gap.after.chi_square / discovery.gap.after.degrees_of_freedom, 1.0, 0.25);
+}
+
+// What no hexapod does: a twist of the tool that is linear in the pose, at random.
+TEST(UnknownGeometry, LosesAgainstTheMapWhereItIsNotTheCause) {
+  Hidden hidden = MakeHidden(0.0, 3);
+  std::mt19937_64 rng(3);
+  Matrix6d slopes;
+  for (int k = 0; k < 6; ++k) slopes.col(k) = testing::Normal(rng, 6);
+  slopes.topRows<3>() *= 2e-4, slopes.bottomRows<3>() *= 6e-4;
+  for (MeasuredPose& pose : hidden.dataset.measurement->poses) {
+    const Pose3d& reported = hidden.dataset.robot_poses.rows[pose.pose].base_from_platform;
+    Vector6d coordinates;
+    coordinates << reported.translation / 0.08, Log(reported.rotation) / 0.2;
+    pose.world_from_tool = Plus(pose.world_from_tool, Vector6d(slopes * coordinates));
+  }
+  const Discovery discovery = Discover(hidden.dataset, Quick());
+  ASSERT_TRUE(discovery.leg_geometry.has_value());
+  EXPECT_FALSE(discovery.leg_geometry->is_in_model);
+  EXPECT_FALSE(discovery.leg_geometry->is_complete);
+  EXPECT_FALSE(discovery.machine.hexapod.has_value());
+  EXPECT_TRUE(discovery.machine.pose_map.has_value());
+  EXPECT_EQ(discovery.verdict, Verdict::kPartlyExplained);
 }
 
 TEST(UnknownGeometry, IsNotAskedForWhereNothingIsLeft) {
