@@ -97,8 +97,6 @@ Audit AuditDataset(const Dataset& dataset,
                     compare.seed});
 }
 
-}  // namespace
-
 int RunAudit(const std::vector<std::string>& files) {
   const auto start = std::chrono::steady_clock::now();
   if (FLAGS_gate && FLAGS_requirement.empty())
@@ -137,6 +135,55 @@ int RunAudit(const std::vector<std::string>& files) {
     fmt::print("{}  {:<15}{}\n\n", AuditTable(audit), "written to", folder.path());
   if (!audit.estimate.IsTrustworthy()) return kNotTrusted;
   return FLAGS_gate && audit.compliance == Compliance::kFail ? kRequirementFailed : kDone;
+}
+
+}  // namespace
+
+Command AuditCommand() {
+  return {
+      "audit",
+      "how accurate the calibrated machine is, and whether that is enough",
+      "DATASET",
+      1,
+      1,
+      "Calibrates base and tool, says how far points of the tool may be from where they are "
+      "predicted "
+      "(target registration error, from the covariance of the 12 parameters, the robot's own error "
+      "and what else the requirement file states), checks that by repetition, and decides for each "
+      "requirement: PASS, FAIL or INCONCLUSIVE, with a guard band. Writes report.html (open it in "
+      "a "
+      "browser), audit.json, "
+      "result.json, model.yaml and run.json to DIR/<name>/. Exit status 7 with --gate: a "
+      "requirement "
+      "failed; 4: "
+      "the 12 parameters cannot be trusted.",
+      {{"out", true, "DIR", "The results go to DIR/<name>/."},
+       {"requirement"},
+       {"previous"},
+       {"gate"},
+       {"solver"},
+       {"residual"},
+       {"start"},
+       {"outliers"},
+       {"loss"},
+       {"loss_scale"},
+       {"covariance"},
+       {"noise_position"},
+       {"noise_orientation"},
+       {"error"},
+       {"unit_magnitude"},
+       {"iterations"},
+       {"tolerance"},
+       {"folds"},
+       {"draws"},
+       {"seed", false, {}, "The same seed draws the same folds and repetitions."},
+       {"config"},
+       {"threads"},
+       {"json"},
+       {"quiet"},
+       {"force"}},
+      &RunAudit,
+  };
 }
 
 }  // namespace hexcal

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <vector>
+#include "apps/command.h"
 
 namespace hexcal {
 
-int RunAudit(const std::vector<std::string>& files);
+// hexcal audit DATASET --out=DIR
+Command AuditCommand();
 
 }  // namespace hexcal

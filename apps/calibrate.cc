@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <limits>
 #include <optional>
 
 #include "apps/calibrate_options.h"
@@ -180,8 +181,47 @@ class CalibrateRun {
   int untrusted_ = 0;
 };
 
+int RunCalibrate(const std::vector<std::string>& files) { return CalibrateRun(files).Run(); }
+
 }  // namespace
 
-int RunCalibrate(const std::vector<std::string>& files) { return CalibrateRun(files).Run(); }
+Command CalibrateCommand() {
+  return {
+      "calibrate",
+      "where the base and the tool are, and how sure that is",
+      "DATASET...",
+      1,
+      std::numeric_limits<std::size_t>::max(),
+      "Estimates the base mount T_B^W and the tool mount T_T^A of each dataset, 12 parameters with "
+      "their covariance, and writes result.json, model.yaml and run.json to DIR/<name>/. Where the "
+      "dataset states no noise, that of positions and that of orientations are estimated with the "
+      "mounts. Exit status 4: there are results, but the data do not determine all 12 parameters "
+      "or "
+      "the solver did not converge.",
+      {{"out", true, "DIR", "The results of a dataset go to DIR/<name>/."},
+       {"report"},
+       {"model", false, {}, "A model whose effects are estimated along with base and tool."},
+       {"solver"},
+       {"residual"},
+       {"start"},
+       {"evaluation"},
+       {"outliers"},
+       {"loss"},
+       {"loss_scale"},
+       {"covariance"},
+       {"noise_position"},
+       {"noise_orientation"},
+       {"error"},
+       {"unit_magnitude"},
+       {"iterations"},
+       {"tolerance"},
+       {"config"},
+       {"threads"},
+       {"json"},
+       {"quiet"},
+       {"force"}},
+      &RunCalibrate,
+  };
+}
 
 }  // namespace hexcal

@@ -49,8 +49,6 @@ Comparison CompareWithBars(const Dataset& dataset, CompareOptions options) {
   return Compare(observations, initial, options);
 }
 
-}  // namespace
-
 int RunCompare(const std::vector<std::string>& files) {
   const auto start = std::chrono::steady_clock::now();
   const Dataset dataset = OpenDataset(files[0], true);
@@ -76,6 +74,48 @@ int RunCompare(const std::vector<std::string>& files) {
                CompareTable(dataset.name, options, comparison),
                folder.path());
   return comparison.reference.IsTrustworthy() ? kDone : kNotTrusted;
+}
+
+}  // namespace
+
+Command CompareCommand() {
+  return {
+      "compare",
+      "the closed forms, the linearized iterations and the nonlinear solution side by side",
+      "DATASET",
+      1,
+      1,
+      "Solves the dataset by the paper's iteration, the twist iteration, Zhuang's AX = YB, Shah, "
+      "Li, "
+      "Park-Martin and the nonlinear problem (by pose, by marker where markers were measured, "
+      "without "
+      "outliers), and shows how far each is from the nonlinear solution, "
+      "what it leaves over, how well it predicts poses that it has not seen, and what it costs. "
+      "Says "
+      "whether the nonlinear solution is proven to be the best anywhere, whether its covariance "
+      "may "
+      "be used (JCGM 101:2008, clause 8), and from which starts the iterations arrive. Writes "
+      "compare.json and run.json, which has the times, to DIR/<name>/. Exit status 4: the "
+      "nonlinear "
+      "solution cannot be trusted.",
+      {{"out", true, "DIR", "The results go to DIR/<name>/."},
+       {"start", false, {}, "Where the linearized iterations start."},
+       {"noise_position"},
+       {"noise_orientation"},
+       {"seed", false, {}, "The same seed draws the same folds, repetitions and starts."},
+       {"unit_magnitude"},
+       {"iterations"},
+       {"tolerance"},
+       {"folds"},
+       {"draws"},
+       {"starts"},
+       {"config"},
+       {"threads"},
+       {"json"},
+       {"quiet"},
+       {"force"}},
+      &RunCompare,
+  };
 }
 
 }  // namespace hexcal

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <vector>
+#include "apps/command.h"
 
 namespace hexcal {
 
-int RunCompare(const std::vector<std::string>& files);
+// hexcal compare DATASET --out=DIR
+Command CompareCommand();
 
 }  // namespace hexcal

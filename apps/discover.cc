@@ -54,8 +54,6 @@ std::vector<Effect> EffectsOf(const Discovery& discovery) {
   return effects;
 }
 
-}  // namespace
-
 int RunDiscover(const std::vector<std::string>& files) {
   const auto start = std::chrono::steady_clock::now();
   const Dataset dataset = OpenDataset(files[0], true);
@@ -86,6 +84,41 @@ int RunDiscover(const std::vector<std::string>& files) {
     fmt::print(
         "{}  {:<15}{}\n\n", DiscoveryTable(dataset.name, discovery), "written to", folder.path());
   return discovery.estimate.IsTrustworthy() ? kDone : kNotTrusted;
+}
+
+}  // namespace
+
+Command DiscoverCommand() {
+  return {
+      "discover",
+      "finds where prediction and measurement disagree, and names the missing effect",
+      "DATASET",
+      1,
+      1,
+      "Calibrates base and tool, tests what they leave against every effect of docs/effects.md "
+      "that "
+      "the dataset can be tested for, names the one that the data support (or the class, or says "
+      "that it is unknown), adds it to the model, fits again and shows how far the gap between "
+      "prediction "
+      "and measurement shrinks, on poses that neither the fit nor the choice has seen. Writes "
+      "report.html (open it in a browser), discovery.json, result.json, model.yaml (for predict, "
+      "simulate and calibrate --model) and run.json to DIR/<name>/. No verdict changes the exit "
+      "status; 4: the 12 parameters cannot be "
+      "trusted.",
+      {{"out", true, "DIR", "The results go to DIR/<name>/."},
+       {"alpha"},
+       {"bootstraps"},
+       {"noise_position"},
+       {"noise_orientation"},
+       {"folds"},
+       {"seed", false, {}, "The same seed draws the same noise and the same folds."},
+       {"config"},
+       {"threads"},
+       {"json"},
+       {"quiet"},
+       {"force"}},
+      &RunDiscover,
+  };
 }
 
 }  // namespace hexcal

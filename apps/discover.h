@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <vector>
+#include "apps/command.h"
 
 namespace hexcal {
 
-int RunDiscover(const std::vector<std::string>& files);
+// hexcal discover DATASET --out=DIR
+Command DiscoverCommand();
 
 }  // namespace hexcal

@@ -53,8 +53,6 @@ FrameNames FramesFromFlags() {
           FrameName(FLAGS_tool_frame, "tool_frame")};
 }
 
-}  // namespace
-
 int RunExport(const std::vector<std::string>& files) {
   const ExportFormat& format = RequireFormat(files[0]);
   if (format.needs_dataset && FLAGS_dataset.empty())
@@ -84,7 +82,7 @@ int RunExport(const std::vector<std::string>& files) {
   return kDone;
 }
 
-std::string_view ExportDescription() {
+std::string_view Description() {
   static const std::string text = [] {
     std::string all =
         "Writes a calibration (result.json) as other programs read it: base in world and tool on "
@@ -94,6 +92,29 @@ std::string_view ExportDescription() {
     return all;
   }();
   return text;
+}
+
+}  // namespace
+
+Command ExportCommand() {
+  return {
+      "export",
+      "a calibration for other programs",
+      "FORMAT RESULT.json",
+      2,
+      2,
+      Description(),
+      {{"out", true, "DIR", "The files go to DIR."},
+       {"dataset"},
+       {"world_frame"},
+       {"base_frame"},
+       {"platform_frame"},
+       {"tool_frame"},
+       {"config"},
+       {"quiet"},
+       {"force"}},
+      &RunExport,
+  };
 }
 
 }  // namespace hexcal

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <string_view>
-#include <vector>
+#include "apps/command.h"
 
 namespace hexcal {
 
-// hexcal export FORMAT RESULT.json: a calibration for other programs. files: these two.
-int RunExport(const std::vector<std::string>& files);
-
-// What help says of the command, the formats by their table.
-std::string_view ExportDescription();
+// hexcal export FORMAT RESULT.json: a calibration for other programs.
+Command ExportCommand();
 
 }  // namespace hexcal

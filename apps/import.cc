@@ -150,8 +150,6 @@ std::vector<std::string> InputsOf(std::vector<std::string> files) {
   return files;
 }
 
-}  // namespace
-
 int RunImport(const std::vector<std::string>& files) {
   const ImportFormat& format = RequireRecordings(files[0], "FORMAT");
   const std::vector<std::string> own_files(files.begin() + 1, files.end());
@@ -173,7 +171,7 @@ int RunImport(const std::vector<std::string>& files) {
   return kDone;
 }
 
-std::string_view ImportDescription() {
+std::string_view Description() {
   static const std::string text = [] {
     std::string all =
         "Makes a dataset of what other programs recorded: FILES are the tracker's, --robot the "
@@ -185,6 +183,47 @@ std::string_view ImportDescription() {
     return all;
   }();
   return text;
+}
+
+}  // namespace
+
+Command ImportCommand() {
+  return {
+      "import",
+      "other programs' files to a dataset",
+      "FORMAT FILE...",
+      2,
+      std::numeric_limits<std::size_t>::max(),
+      Description(),
+      {{"out", true, "DIR", "The dataset goes to DIR."},
+       {"robot"},
+       {"robot_format"},
+       {"robot_rotation"},
+       {"robot_columns"},
+       {"robot_map"},
+       {"robot_inverse"},
+       {"base"},
+       {"tool"},
+       {"base_body"},
+       {"tool_body"},
+       {"measured_inverse"},
+       {"map"},
+       {"pair"},
+       {"frames"},
+       {"stops"},
+       {"window"},
+       {"time_offset"},
+       {"missing_value"},
+       {"kind"},
+       {"static_tracker"},
+       {"hexapod"},
+       {"initial"},
+       {"name"},
+       {"config"},
+       {"quiet"},
+       {"force"}},
+      &RunImport,
+  };
 }
 
 }  // namespace hexcal

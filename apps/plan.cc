@@ -111,8 +111,6 @@ void CheckPool(const PlanOptions& options) {
       "plan: --poses: found {}, expected at most --pool, {}", options.poses, options.pool));
 }
 
-}  // namespace
-
 int RunPlan(const std::vector<std::string>& files) {
   const std::filesystem::path out = FLAGS_out;
   const bool is_table = IsTable(out);
@@ -140,6 +138,44 @@ int RunPlan(const std::vector<std::string>& files) {
   else if (!FLAGS_quiet)
     fmt::print("{}\n  {:<15}{}\n", PlanTable(dataset.name, plan), "written to", FLAGS_out);
   return kDone;
+}
+
+}  // namespace
+
+Command PlanCommand() {
+  return {
+      "plan",
+      "which poses to measure next, for base and tool or to tell rival effects apart",
+      "DATASET",
+      1,
+      1,
+      "Takes the machine of the model and the poses that the dataset has measured already, and "
+      "chooses further poses within reach, with loads, temperatures and whatever else is a column "
+      "of "
+      "robot_poses: those that determine base and tool best (D-optimality), or that tell the "
+      "model's "
+      "effects from what they could also be (T-optimality). Says how sure the 12 parameters and "
+      "how "
+      "far apart the rivals are now and will be then; where no pose can separate two, what "
+      "experiment would. FILE.csv is a table for the robot_poses of a new dataset, in the columns "
+      "and units of this one and in the order in which to measure; FILE.json holds all that is "
+      "known "
+      "of the plan. The dataset may have no measured poses yet if it states its noise.",
+      {{"model", true},
+       {"out", true, "FILE", "The plan to write, .csv or .json."},
+       {"for"},
+       {"poses"},
+       {"pool"},
+       {"settings"},
+       {"noise_position"},
+       {"noise_orientation"},
+       {"seed", false, {}, "The same seed draws the same pool and the same order."},
+       {"config"},
+       {"json"},
+       {"quiet"},
+       {"force"}},
+      &RunPlan,
+  };
 }
 
 }  // namespace hexcal

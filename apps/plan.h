@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <vector>
+#include "apps/command.h"
 
 namespace hexcal {
 
 // hexcal plan DATASET --model=FILE --out=FILE
-int RunPlan(const std::vector<std::string>& files);
+Command PlanCommand();
 
 }  // namespace hexcal

@@ -37,8 +37,6 @@ std::string PredictionTable(const Dataset& dataset, const std::vector<Pose3d>& w
   return table;
 }
 
-}  // namespace
-
 int RunPredict(const std::vector<std::string>& files) {
   const std::filesystem::path out = FLAGS_out;
   if (!out.has_filename())
@@ -55,6 +53,28 @@ int RunPredict(const std::vector<std::string>& files) {
   folder.Write(out.filename().string(), PredictionTable(dataset, world_from_tool));
   if (!FLAGS_quiet) fmt::print("{}: {} poses predicted\n", FLAGS_out, world_from_tool.size());
   return kDone;
+}
+
+}  // namespace
+
+Command PredictCommand() {
+  return {
+      "predict",
+      "where the machine really is, by a calibrated model",
+      "DATASET",
+      1,
+      1,
+      "Reads the poses that the robot reported (robot_poses) and writes, for each, the pose of the "
+      "tool in the world by the model: T_T^W = T_B^W T_A^B T_T^A, with the model's effects of the "
+      "robot and its mounts. The dataset needs no measurement. The table has the columns "
+      "pose,x,y,z,qw,qx,qy,qz, in m, the quaternion's scalar first.",
+      {{"model", true},
+       {"out", true, "FILE.csv", "The table to write."},
+       {"config"},
+       {"quiet"},
+       {"force"}},
+      &RunPredict,
+  };
 }
 
 }  // namespace hexcal

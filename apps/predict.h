@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <vector>
+#include "apps/command.h"
 
 namespace hexcal {
 
 // hexcal predict DATASET --model=FILE --out=FILE.csv
-int RunPredict(const std::vector<std::string>& files);
+Command PredictCommand();
 
 }  // namespace hexcal

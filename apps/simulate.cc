@@ -34,8 +34,6 @@ SimulateOptions OptionsFromFlags() {
   return options;
 }
 
-}  // namespace
-
 int RunSimulate(const std::vector<std::string>& files) {
   const Dataset dataset = OpenDataset(files[0], false);
   const Machine machine = ReadMachine(FLAGS_model);
@@ -60,6 +58,32 @@ int RunSimulate(const std::vector<std::string>& files) {
                folder.PathOf(DatasetFiles().front().name),
                simulated.robot_poses.rows.size());
   return kDone;
+}
+
+}  // namespace
+
+Command SimulateCommand() {
+  return {
+      "simulate",
+      "what the tracker would see of a calibrated machine, as a new dataset",
+      "DATASET",
+      1,
+      1,
+      "Takes the machine of the model as the truth, moves it through the dataset's poses and "
+      "writes "
+      "what the tracker would see as a new dataset, in m and rad, with noise drawn from the "
+      "standard "
+      "deviations that the dataset states. The dataset's own measurement, if it has readings, is "
+      "replaced.",
+      {{"model", true},
+       {"out", true, "DIR", "The new dataset goes to DIR/<name>/."},
+       {"seed"},
+       {"noise"},
+       {"config"},
+       {"quiet"},
+       {"force"}},
+      &RunSimulate,
+  };
 }
 
 }  // namespace hexcal

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <string>
-#include <vector>
+#include "apps/command.h"
 
 namespace hexcal {
 
 // hexcal simulate DATASET --model=FILE --out=DIR
-int RunSimulate(const std::vector<std::string>& files);
+Command SimulateCommand();
 
 }  // namespace hexcal
