@@ -10,16 +10,12 @@
 #include "apps/flag_value.h"
 #include "apps/flags.h"
 #include "apps/usage_error.h"
-#include "config/strict_yaml.h"
+#include "config/nearest_word.h"
 
 namespace hexcal {
 namespace {
 
 constexpr std::string_view kNoPrefix = "no";
-
-std::string Suggestion(std::string_view prefix, const std::string& nearest) {
-  return nearest.empty() ? "" : fmt::format("; did you mean {}{}?", prefix, nearest);
-}
 
 [[noreturn]] void Refuse(const Command& command, std::string_view message) {
   throw UsageError(
@@ -35,9 +31,8 @@ const Command& RequireCommand(const std::string& name) {
                     name));
   std::vector<std::string_view> known = {"help"};
   for (const Command& command : Commands()) known.push_back(command.name);
-  throw UsageError(fmt::format("unknown command '{}'{}\nTry 'hexcal help'.",
-                               name,
-                               Suggestion("", NearestWord(name, known))));
+  throw UsageError(
+      fmt::format("unknown command '{}'{}\nTry 'hexcal help'.", name, DidYouMean(name, known)));
 }
 
 [[noreturn]] void RefuseUnknown(const Command& command, std::string_view flag) {
@@ -51,8 +46,9 @@ const Command& RequireCommand(const std::string& name) {
   }
   std::vector<std::string_view> known = {"help"};
   for (const CommandFlag& own : command.flags) known.push_back(own.name);
-  Refuse(command,
-         fmt::format("unknown flag --{}{}", flag, Suggestion("--", NearestWord(flag, known))));
+  const std::string nearest = NearestWord(flag, known);
+  const std::string hint = nearest.empty() ? "" : fmt::format(" (did you mean '--{}'?)", nearest);
+  Refuse(command, fmt::format("unknown flag --{}{}", flag, hint));
 }
 
 // Reads the arguments after the command, one after another.

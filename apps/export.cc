@@ -8,7 +8,7 @@
 #include "apps/flags.h"
 #include "apps/output_folder.h"
 #include "apps/usage_error.h"
-#include "config/strict_yaml.h"
+#include "config/nearest_word.h"
 #include "estimator/observations.h"
 #include "report/export/formats.h"
 
@@ -23,13 +23,12 @@ const ExportFormat& RequireFormat(const std::string& name) {
     names += fmt::format("{}{}", names.empty() ? "" : ", ", format.name);
     known.push_back(format.name);
   }
-  const std::string nearest = NearestWord(name, known);
   throw UsageError(
       fmt::format("export: FORMAT: found '{}', expected one of {}{}\nTry 'hexcal help "
                   "export'.",
                   name,
                   names,
-                  nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+                  DidYouMean(name, known)));
 }
 
 // A name of a frame goes into XML, YAML and command lines as it is.

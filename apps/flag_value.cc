@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "config/nearest_word.h"
 #include "config/number.h"
 
 namespace hexcal {
@@ -93,7 +94,7 @@ std::string ExpectedText(const FlagSpec& spec) {
 
 std::optional<std::string> SetFlag(const FlagSpec& spec, std::string_view text) {
   const std::optional<std::string> value = Canonical(spec, text);
-  if (!value) return ExpectedText(spec);
+  if (!value) return ExpectedText(spec) + DidYouMean(text, spec.choices);
   const std::string name(spec.name);
   CHECK(!gflags::SetCommandLineOption(name.c_str(), value->c_str()).empty()) << name;
   return std::nullopt;

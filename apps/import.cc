@@ -3,15 +3,15 @@
 
 #include <fmt/format.h>
 
-#include "apps/dataset_files.h"
 #include "apps/exit_status.h"
 #include "apps/flags.h"
 #include "apps/import_conventions.h"
 #include "apps/import_options.h"
 #include "apps/message.h"
 #include "apps/output_folder.h"
+#include "apps/trial_read.h"
 #include "apps/usage_error.h"
-#include "config/strict_yaml.h"
+#include "config/nearest_word.h"
 #include "config/utf8.h"
 #include "measurement/dataset_writer.h"
 #include "measurement/importers/assemble.h"
@@ -47,13 +47,12 @@ const ImportFormat& RequireRecordings(std::string_view name, std::string_view wh
   if (format != nullptr && format->read_recording != nullptr) return *format;
   std::vector<std::string_view> known;
   for (const ImportFormat& candidate : ImportFormats()) known.push_back(candidate.name);
-  const std::string nearest = format == nullptr ? NearestWord(name, known) : "";
   throw UsageError(
       fmt::format("import: {}: found '{}', expected one of {}{}\nTry 'hexcal help import'.",
                   what,
                   name,
                   FormatNames(),
-                  nearest.empty() ? "" : fmt::format("; did you mean {}?", nearest)));
+                  format == nullptr ? DidYouMean(name, known) : ""));
 }
 
 const ImportFormat& RobotFormat() {
@@ -98,19 +97,26 @@ std::string CommandText(const std::vector<std::string>& files) {
   return text + "\n";
 }
 
-void WriteFiles(const Assembled& assembled,
-                const std::vector<std::string>& files,
-                OutputFolder& folder) {
-  // Tables first: the file that names them comes when they are there.
-  std::string description;
-  for (const auto& [name, content] : WriteDataset(assembled.dataset)) {
+using NamedFiles = std::vector<std::pair<std::string, std::string>>;
+
+NamedFiles FilesOf(const Assembled& assembled, const std::vector<std::string>& arguments) {
+  NamedFiles files = WriteDataset(assembled.dataset);
+  for (auto& [name, content] : files) {
     if (name == DatasetFiles().front().name)
-      description = content;
-    else
-      folder.Write(name, content);
+      content = CommandText(arguments) + WithComments(content, assembled);
   }
-  folder.Write(DatasetFiles().front().name,
-               CommandText(files) + WithComments(description, assembled));
+  return files;
+}
+
+// Tables first: the file that names them comes when they are there.
+void Write(const NamedFiles& files, OutputFolder& folder) {
+  const std::string& first = DatasetFiles().front().name;
+  for (const auto& [name, content] : files) {
+    if (name != first) folder.Write(name, content);
+  }
+  for (const auto& [name, content] : files) {
+    if (name == first) folder.Write(name, content);
+  }
 }
 
 std::string MeasuredText(const Dataset& dataset) {
@@ -161,13 +167,12 @@ int RunImport(const std::vector<std::string>& files) {
   if (!FLAGS_hexapod.empty()) assembled.dataset.hexapod = ReadHexapodFile(FLAGS_hexapod);
   for (const std::string& warning : assembled.dataset.warnings) PrintWarning(warning);
   OutputFolder folder(FLAGS_out, "", DatasetFiles(), InputsOf(own_files), FLAGS_force);
-  WriteFiles(assembled, files, folder);
-  // As every other command will read it: what is odd in it shows now.
-  const std::string path = folder.PathOf(DatasetFiles().front().name);
-  OpenDataset(path, assembled.dataset.measurement.has_value());
+  const NamedFiles dataset_files = FilesOf(assembled, files);
+  TryReading(dataset_files, assembled.dataset.measurement.has_value(), FLAGS_out);
   const std::optional<std::size_t> tried =
       CheckConventions(sources.robot, sources.tracker, options, assembled.dataset);
-  if (!FLAGS_quiet) PrintSummary(assembled, tried, path);
+  Write(dataset_files, folder);
+  if (!FLAGS_quiet) PrintSummary(assembled, tried, folder.PathOf(DatasetFiles().front().name));
   return kDone;
 }
 

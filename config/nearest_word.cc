@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
+#include "config/nearest_word.h"
 
-#include "config/strict_yaml.h"
+#include <fmt/format.h>
+
+#include <algorithm>
 
 namespace hexcal {
 namespace {
 
 char Lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-// Insertions, deletions, substitutions and exchanges of neighbours; case does not count.
+// The only known word that begins with this one, if three letters or more are there.
+std::string_view OnlyContinuation(std::string_view word,
+                                  const std::vector<std::string_view>& known) {
+  constexpr std::size_t kShortest = 3;
+  if (word.size() < kShortest) return {};
+  const auto begins = [word](std::string_view candidate) {
+    return candidate.substr(0, word.size()) == word;
+  };
+  const auto first = std::find_if(known.begin(), known.end(), begins);
+  if (first == known.end() || std::any_of(first + 1, known.end(), begins)) return {};
+  return *first;
+}
+
+}  // namespace
+
 std::size_t EditDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -27,8 +43,6 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-}  // namespace
-
 std::string NearestWord(std::string_view word, const std::vector<std::string_view>& known) {
   constexpr std::size_t kLongest = 100;  // no key is so long; keeps a hostile one cheap
   if (word.size() > kLongest) return "";
@@ -40,7 +54,12 @@ std::string NearestWord(std::string_view word, const std::vector<std::string_vie
     least = distance;
     nearest = candidate;
   }
-  return std::string(nearest);
+  return std::string(nearest.empty() ? OnlyContinuation(word, known) : nearest);
+}
+
+std::string DidYouMean(std::string_view word, const std::vector<std::string_view>& known) {
+  const std::string nearest = NearestWord(word, known);
+  return nearest.empty() ? "" : fmt::format(" (did you mean '{}'?)", nearest);
 }
 
 }  // namespace hexcal

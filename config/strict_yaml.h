@@ -68,8 +68,4 @@ class MapReader {
   std::string what_;
 };
 
-// The known word nearest to word, or "" when none is near (edit distance above a third of its
-// length).
-std::string NearestWord(std::string_view word, const std::vector<std::string_view>& known);
-
 }  // namespace hexcal

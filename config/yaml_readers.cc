@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "config/nearest_word.h"
 #include "config/number.h"
 #include "config/strict_yaml.h"
 #include "config/utf8.h"
@@ -107,8 +108,7 @@ MapReader::MapReader(const YamlNode& node,
   for (const auto& [key, value] : node.entries) {
     if (std::find(known.begin(), known.end(), key.scalar) != known.end()) continue;
     std::string hint(ColonHint(key.scalar));
-    const std::string nearest = NearestWord(key.scalar, known);
-    if (hint.empty() && !nearest.empty()) hint = fmt::format(" (did you mean '{}'?)", nearest);
+    if (hint.empty()) hint = DidYouMean(key.scalar, known);
     throw InputError(
         key.where,
         fmt::format("the unknown key '{}' in {}", Shorten(key.scalar), what),

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "config/nearest_word.h"
 #include "measurement/marker_body_reader.h"
 #include "measurement/table_input.h"
 
@@ -96,12 +97,9 @@ class MarkerRows {
 
   [[noreturn]] void RefuseMarker(int body) const {
     const std::vector<std::string>& names = measurement_.bodies[body].markers;
-    const std::string nearest = NearestWord(key_, {names.begin(), names.end()});
-    std::string hint;
+    std::string hint = DidYouMean(key_, {names.begin(), names.end()});
     if (marker_index_[1 - body].count(key_) > 0)
       hint = fmt::format(" (it is one of the {} body)", kBodyNames[1 - body]);
-    else if (!nearest.empty())
-      hint = fmt::format(" (did you mean '{}'?)", nearest);
     throw InputError(table_.CellLocation(marker_),
                      fmt::format("the marker {} of the {} body", Quoted(key_), kBodyNames[body]),
                      fmt::format("a marker that bodies: lists for it{}", hint));

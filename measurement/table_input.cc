@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <unordered_set>
 
+#include "config/nearest_word.h"
 #include "measurement/labels.h"
 
 namespace hexcal {
@@ -75,11 +76,9 @@ void CheckColumns(const TableReader& table,
     const Location where = table.HeaderLocation(static_cast<int>(i));
     seen.insert(column);
     if (known_set.count(column) > 0) continue;
-    const std::string nearest = NearestWord(column, known);
     throw InputError(where,
                      fmt::format("the unknown column {}", Quoted(column)),
-                     nearest.empty() ? std::string(expected)
-                                     : fmt::format("{} (did you mean '{}'?)", expected, nearest));
+                     fmt::format("{}{}", expected, DidYouMean(column, known)));
   }
   for (const std::string_view column : required)
     if (seen.count(column) == 0)

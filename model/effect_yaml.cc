@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 
+#include "config/nearest_word.h"
 #include "model/data_fault.h"
 #include "model/described_effect.h"
 
@@ -30,11 +31,9 @@ const EffectKind* KindOf(const YamlNode& name) {
   if (kind != nullptr || text == kUnknownEffect) return kind;
   std::vector<std::string_view> known = {kUnknownEffect};
   for (const EffectKind& candidate : EffectKinds()) known.push_back(candidate.name);
-  const std::string nearest = NearestWord(text, known);
-  throw InputError(
-      name.where,
-      fmt::format("the effect '{}'", text),
-      nearest.empty() ? "an effect that docs/effects.md lists" : fmt::format("'{}'?", nearest));
+  throw InputError(name.where,
+                   fmt::format("the effect '{}'", text),
+                   fmt::format("an effect that docs/effects.md lists{}", DidYouMean(text, known)));
 }
 
 int Carriers(const EffectKind* kind) {

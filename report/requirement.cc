@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/nearest_word.h"
 #include "config/strict_yaml.h"
 #include "config/units.h"
 
@@ -189,11 +190,9 @@ class Reader {
       if (result_.points[i].name == name) return i;
       names.push_back(result_.points[i].name);
     }
-    const std::string near = NearestWord(name, names);
     throw InputError(node.where,
                      fmt::format("'{}'", name),
-                     near.empty() ? "the name of one of the points"
-                                  : fmt::format("a point; do you mean '{}'?", near));
+                     fmt::format("the name of one of the points{}", DidYouMean(name, names)));
   }
 
   void ReadRequirement(const YamlNode& node) {

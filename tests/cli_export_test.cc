@@ -247,7 +247,7 @@ TEST_F(CliExport, ResidualsAsATable) {
 
 TEST_F(CliExport, RefusesWhatItCannotUse) {
   EXPECT_EQ(Export("ros3").status, 2);
-  EXPECT_THAT(Export("ros3").err, HasSubstr("did you mean ros"));
+  EXPECT_THAT(Export("ros3").err, HasSubstr("did you mean 'ros"));
   EXPECT_THAT(Export("tum").err, HasSubstr("--dataset=FILE is missing"));
   EXPECT_EQ(Export("ros1", {"--tool_frame=\"/><evil x=\""}).status, 2);
   EXPECT_EQ(Export("ros1", {"--tool_frame=-x"}).status, 2);

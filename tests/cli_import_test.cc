@@ -259,11 +259,40 @@ TEST_F(CliImport, AsksForWhatTheFilesDoNotSay) {
 TEST_F(CliImport, RefusesWrongUsage) {
   const ProgramResult format = Import({"ndi_cvs", kTracker, "--out=mine"});
   EXPECT_EQ(format.status, 2);
-  EXPECT_THAT(format.err, HasSubstr("did you mean ndi_csv?"));
+  EXPECT_THAT(format.err, HasSubstr("(did you mean 'ndi_csv'?)"));
   EXPECT_EQ(Import({"ndi_csv", "--out=mine"}).status, 2);
   EXPECT_EQ(ImportExample({"--pair=files", "--window=1"}).status, 2);
   EXPECT_EQ(ImportExample({"--pair=rows", "--robot_columns=1,2,3"}).status, 2);
   EXPECT_EQ(Import({"ndi_csv", "absent.csv", kRobot, "--out=mine"}).status, 3);
+}
+
+// Too little data: nothing is left in the folder, nor elsewhere.
+TEST_F(CliImport, LeavesNothingOfARefusedDataset) {
+  std::ifstream whole(kTracker);
+  std::string few, line;
+  for (int i = 0; i < 3 && std::getline(whole, line); ++i) few += line + "\n";
+  folder.Write("few.csv", few);
+  std::string robot;
+  std::ifstream all(kExamples + "/ndi-and-pi/hexapod.dat");
+  for (int rows = 0; rows < 2 && std::getline(all, line);) {
+    robot += line + "\n";
+    if (!line.empty() && line[0] != '#') ++rows;
+  }
+  folder.Write("robot.dat", robot);
+  const std::vector<std::string> arguments = {"import",
+                                              "ndi_csv",
+                                              "few.csv",
+                                              "--robot=robot.dat",
+                                              "--base=0x0A",
+                                              "--tool=0x0B",
+                                              "--pair=rows",
+                                              "--out=mine"};
+  const ProgramResult refused =
+      RunHexcal({arguments, folder.Path(""), {{"TMPDIR", folder.Path("")}}});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_THAT(refused.err, HasSubstr("the dataset for mine is refused, and not written: "));
+  EXPECT_THAT(refused.err, ::testing::Not(HasSubstr(folder.Path(""))));
+  EXPECT_THAT(folder.Names(), ::testing::UnorderedElementsAre("few.csv", "robot.dat"));
 }
 
 TEST_F(CliImport, MakesAPlanOfARobotsPosesAlone) {

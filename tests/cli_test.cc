@@ -108,8 +108,8 @@ TEST(Cli, EveryDefaultThatIsAChoiceIsOneOfTheChoices) {
 TEST(Cli, WithoutACommandItSaysHowToStart) { ExpectWrongUsage({}, "Try 'hexcal help'."); }
 
 TEST(Cli, AnUnknownCommandGetsTheNearestOne) {
-  ExpectWrongUsage({"predikt"}, "unknown command 'predikt'; did you mean predict?");
-  ExpectWrongUsage({"help", "simulat"}, "did you mean simulate?");
+  ExpectWrongUsage({"predikt"}, "unknown command 'predikt' (did you mean 'predict'?)");
+  ExpectWrongUsage({"help", "simulat"}, "(did you mean 'simulate'?)");
   ExpectWrongUsage({"xyzzy"}, "unknown command 'xyzzy'\n");
 }
 
@@ -118,7 +118,8 @@ TEST(Cli, TheCommandComesFirst) {
 }
 
 TEST(Cli, AnUnknownFlagGetsTheNearestOne) {
-  ExpectWrongUsage({"simulate", "d.yaml", "--sead=3"}, "unknown flag --sead; did you mean --seed?");
+  ExpectWrongUsage({"simulate", "d.yaml", "--sead=3"},
+                   "unknown flag --sead (did you mean '--seed'?)");
   ExpectWrongUsage({"simulate", "d.yaml", "--zzzzzz"}, "unknown flag --zzzzzz\n");
 }
 
@@ -155,6 +156,13 @@ TEST(Cli, ABadValueSaysWhatIsExpected) {
     ExpectWrongUsage(with(std::string("--seed=") + value), "expected a whole number from 0 on");
   ExpectWrongUsage(with("--quiet=maybe"), "expected true or false");
   ExpectWrongUsage(with("--out="), "expected a path");
+}
+
+TEST(Cli, AMisspeltChoiceGetsTheNearestOne) {
+  ExpectWrongUsage({"calibrate", "d.yaml", "--solver=linearised"},
+                   "expected nonlinear or linearized (did you mean 'linearized'?)");
+  ExpectWrongUsage({"calibrate", "d.yaml", "--loss=hubre"}, "(did you mean 'huber'?)");
+  ExpectWrongUsage({"calibrate", "d.yaml", "--loss=l2"}, "huber, cauchy or tukey\n");
 }
 
 TEST(Cli, AValueMayStandApartAndMustBeThere) {

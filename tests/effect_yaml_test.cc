@@ -129,7 +129,9 @@ struct Mistake {
 
 TEST(EffectYaml, RefusesMistakesWhereTheyStand) {
   const Mistake mistakes[] = {
-      {"{name: leg_gian}", "model.yaml:2:12: found the effect 'leg_gian', expected 'leg_gain'?"},
+      {"{name: leg_gian}",
+       "model.yaml:2:12: found the effect 'leg_gian', expected an effect that "
+       "docs/effects.md lists (did you mean 'leg_gain'?)"},
       {"{name: zzzzzzzzzzz}",
        "model.yaml:2:12: found the effect 'zzzzzzzzzzz', expected an effect that docs/effects.md "
        "lists"},

@@ -453,19 +453,6 @@ TEST(StrictYaml, MapReaderRefusesUnknownKeysAndOtherKinds) {
             "f.yaml:1:1: found the unknown key 'a' in it, expected only file");
 }
 
-TEST(StrictYaml, NearestWord) {
-  const std::vector<std::string_view> known = {"name", "file", "measurement", "units"};
-  EXPECT_EQ(NearestWord("nmae", known), "name");
-  EXPECT_EQ(NearestWord("Name", known), "name");
-  EXPECT_EQ(NearestWord("unit", known), "units");
-  EXPECT_EQ(NearestWord("measurements", known), "measurement");
-  EXPECT_EQ(NearestWord("fil", known), "file");
-  EXPECT_EQ(NearestWord("xy", known), "");
-  EXPECT_EQ(NearestWord("payload", known), "");
-  EXPECT_EQ(NearestWord("", known), "");
-  EXPECT_EQ(NearestWord(std::string(100000, 'x'), known), "");
-}
-
 TEST(StrictYaml, DoesNotCareForTheLocale) {
   const testing::DecimalComma locale;
   std::string text(2000, '\n');
