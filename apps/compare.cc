@@ -16,8 +16,10 @@
 #include "apps/output_folder.h"
 #include "apps/record_of.h"
 #include "apps/stage_bars.h"
+#include "report/compare_html.h"
 #include "report/compare_json.h"
 #include "report/compare_table.h"
+#include "report/html/page.h"
 
 namespace hexcal {
 namespace {
@@ -52,12 +54,10 @@ Comparison CompareWithBars(const Dataset& dataset, CompareOptions options) {
 int RunCompare(const std::vector<std::string>& files) {
   const auto start = std::chrono::steady_clock::now();
   const Dataset dataset = OpenDataset(files[0], true);
-  OutputFolder folder(
-      FLAGS_out,
-      dataset.name,
-      {{"compare.json", std::string(kCompareMark)}, {"run.json", std::string(kRunMark)}},
-      InputFiles(dataset, ""),
-      FLAGS_force);
+  std::vector<OutputFile> outputs = {{"compare.json", std::string(kCompareMark)},
+                                     {"run.json", std::string(kRunMark)}};
+  if (FLAGS_report) outputs.push_back({"report.html", HtmlPage::Mark("compare")});
+  OutputFolder folder(FLAGS_out, dataset.name, outputs, InputFiles(dataset, ""), FLAGS_force);
   const CompareOptions options = OptionsFromFlags();
   const Comparison comparison = CompareWithBars(dataset, options);
   const double seconds =
@@ -66,6 +66,12 @@ int RunCompare(const std::vector<std::string>& files) {
   record.methods = TimesOf(comparison);
   folder.Write("compare.json", CompareJson(dataset.name, options, comparison));
   folder.Write("run.json", RunJson(record));
+  if (FLAGS_report)
+    folder.Write("report.html",
+                 CompareHtml(dataset.name,
+                             record,
+                             comparison,
+                             MakeScene(dataset, MakeObservations(dataset), comparison.reference)));
   PrintNewWarnings(dataset, comparison.reference.warnings, "compare.json");
   if (FLAGS_json && !FLAGS_quiet)
     fmt::print("{}\n", CompareJsonLine(dataset.name, options, comparison));
@@ -99,6 +105,7 @@ Command CompareCommand() {
       "nonlinear "
       "solution cannot be trusted.",
       {{"out", true, "DIR", "The results go to DIR/<name>/."},
+       {"report"},
        {"start", false, {}, "Where the linearized iterations start."},
        {"noise_position"},
        {"noise_orientation"},

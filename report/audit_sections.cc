@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "report/accuracy_charts.h"
-#include "report/estimate_charts.h"
+#include "report/comparison_sections.h"
 #include "report/quantity.h"
 
 namespace hexcal {
@@ -19,54 +19,9 @@ constexpr const char* kNumbers[6] = {"x, mm", "y, mm", "z, mm", "rx, mrad", "ry,
 
 void AddLinearizedAgainstNonlinear(const Audit& audit, HtmlPage* page) {
   page->Section("Linearized against nonlinear");
-  HtmlTable table = {{{"method"},
-                      {"largest difference, standard deviations", true},
-                      {"held out, mm", true},
-                      {"held out, mrad", true},
-                      {"converged"}},
-                     {}};
-  for (const MethodResult& method : audit.comparison.methods) {
-    double largest = 0.0;
-    for (const double s : method.sigmas)
-      if (std::isfinite(s)) largest = std::max(largest, std::abs(s));
-    table.rows.push_back(
-        {std::string(InfoOf(method.method).title),
-         fmt::format("{:.3g}", largest),
-         method.held_out ? fmt::format("{:.4f}", 1e3 * method.held_out->position) : "",
-         method.held_out ? fmt::format("{:.4f}", 1e3 * method.held_out->orientation) : "",
-         method.fit.converged ? "yes" : "no"});
-  }
-  page->Table(table);
-  page->Note(
-      "Differences are from the nonlinear solution by poses, the largest of the 12. Held out: RMS "
-      "error of poses that the method has not seen, with the noise of their own measurement in "
-      "it.");
-  std::vector<Chart> arrivals;
-  for (const MethodResult& method : audit.comparison.methods)
-    if (method.method == Method::kPaper || method.method == Method::kNonlinear)
-      arrivals.push_back(ConvergenceChart(
-          method.fit.iterations,
-          method.method == Method::kPaper ? "paper's iteration" : "nonlinear solver"));
-  page->Figures(arrivals);
-  page->Note(
-      "The paper's iteration starts at the dataset's first guess, or at no motion; the nonlinear "
-      "solver at the best closed form.");
-  const PropagationCheck& propagation = audit.comparison.propagation;
-  page->Heading("May the covariance of first order be used?");
-  if (!propagation.done) {
-    page->Paragraph("Not checked: " + propagation.why_not + ".");
-    return;
-  }
-  page->Paragraph(
-      fmt::format("The measurement was repeated {} times with the noise of every pose and "
-                  "calibrated each time. "
-                  "By the criterion of JCGM 101:2008, clause 8, with two digits of the standard "
-                  "uncertainty, the "
-                  "95 % intervals of first-order propagation are {}{}.",
-                  propagation.draws,
-                  propagation.validated ? "validated for all 12 parameters"
-                                        : "not validated for every parameter",
-                  propagation.stable ? "" : " (the repetitions were too few to be sure of that)"));
+  AddMethods(audit.comparison, page);
+  AddPropagation(audit.comparison.propagation, page);
+  if (!audit.comparison.propagation.done) return;
   HtmlTable checks = {{{"point, where it is worst"},
                        {"first order, mm", true},
                        {"by repetition, mm", true},

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The report of an audit in a real browser, offline. Skipped where there is no Chromium.
+// The reports of audit, calibrate and compare in a real browser, offline. Skipped where there is no
+// Chromium.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
 #include "report/audit_html.h"
+#include "report/calibrate_html.h"
+#include "report/compare_html.h"
 #include "report/html/assets.h"
 #include "testing/audits.h"
 #include "testing/browser.h"
@@ -78,6 +81,31 @@ TEST(AuditInBrowser, IsDrawnSaysWhatItsJsonSaysAndItsNamesAreOnlyNames) {
   EXPECT_LT(html.size(), std::size_t{8} << 20);
   EXPECT_THAT(browser.Pdf(html).substr(0, 8), StartsWith("%PDF"));
   ExpectQuiet(browser.Console());
+}
+
+TEST(CalibrationInBrowser, IsDrawnAsItsComparisonIs) {
+  testing::Browser browser;
+  if (!browser.IsThere()) GTEST_SKIP() << "no Chromium: scripts/install_dependencies test";
+  testing::AuditedExample example = testing::AuditExample();
+  const std::string hostile = "<img src=x onerror=\"document.title='no'\">";
+  for (PoseResult& pose : example.estimate.poses) pose.label = hostile;
+  for (PoseResult& pose : example.comparison.reference.poses) pose.label = hostile;
+  for (Observation& o : example.observations.items) o.label = hostile;
+  ConvergenceMap& map = example.comparison.paper_map;
+  map.rotation_errors = {0.1, 1.0}, map.translation_errors = {0.01}, map.share = {{1.0}, {0.5}};
+  RunRecord record;
+  record.inputs = {hostile};
+  const Scene scene = MakeScene(example.dataset, example.observations, example.estimate);
+  for (const auto& [html, pictures] :
+       {std::pair{CalibrateHtml({"demo", "nonlinear", "pose", ""}, record, example.estimate, scene),
+                  6},
+        std::pair{CompareHtml("demo", record, example.comparison, scene), 8}}) {
+    const std::string dom = Before(browser.Dom(html), "plotly.js (cartesian");
+    ExpectQuiet(browser.Console());
+    EXPECT_EQ(Count(html, "class=\"plot\""), FlatCharts().empty() ? 0 : pictures);
+    EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), FlatCharts().empty() ? 0 : pictures);
+    EXPECT_THAT(dom, AllOf(HasSubstr(": demo</title>"), Not(HasSubstr("<img"))));
+  }
 }
 
 }  // namespace

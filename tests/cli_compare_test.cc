@@ -128,6 +128,17 @@ TEST_F(CliCompare, WritesTheSameBytesWhateverTheThreadsAndNoTimes) {
   EXPECT_NE(folder.Read("out/demo/compare.json"), one);
 }
 
+TEST_F(CliCompare, AReportIsWrittenWhereItIsAskedFor) {
+  Make(kRows);
+  ASSERT_EQ(Compare({"--report"}).status, 0);
+  const std::string once = folder.Read("out/demo/report.html");
+  EXPECT_THAT(once, HasSubstr("id=\"verdict\"><strong>certified</strong>"));
+  EXPECT_THAT(once, HasSubstr("From which starts the iterations arrive"));
+  Make(kOneAxisRows);
+  EXPECT_EQ(Compare({"--report"}).status, 4);
+  EXPECT_THAT(folder.Read("out/demo/report.html"), HasSubstr("<strong>not certified</strong>"));
+}
+
 TEST_F(CliCompare, PrintsTheSameAsJsonOrNothing) {
   Make(kRows);
   const ProgramResult json = Compare({"--json"});
