@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "apps/audit.h"
+#include "apps/batch.h"
 #include "apps/calibrate.h"
 #include "apps/compare.h"
 #include "apps/discover.h"
@@ -23,6 +24,7 @@ const CommandFlag* Command::FindFlag(std::string_view flag) const {
 
 const std::vector<Command>& Commands() {
   static const std::vector<Command> commands = {AuditCommand(),
+                                                BatchCommand(),
                                                 CalibrateCommand(),
                                                 CompareCommand(),
                                                 DiscoverCommand(),

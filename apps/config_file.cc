@@ -36,12 +36,20 @@ void Apply(const FlagSpec& spec, const YamlNode& node, bool is_overridden) {
 
 }  // namespace
 
+void ApplySettings(const YamlNode& settings,
+                   std::string_view what,
+                   const std::vector<std::string_view>& keys,
+                   const std::set<std::string_view>& given) {
+  const MapReader reader(settings, what, keys);
+  for (const auto& [key, value] : settings.entries)
+    Apply(*FindFlag(key.scalar), value, given.count(key.scalar) > 0);
+}
+
 void ApplyConfigFile(const std::string& path, const CommandLine& line) {
-  const YamlNode root = ParseYamlFile(path);
-  const MapReader settings(
-      root, fmt::format("the settings of {}", line.command->name), Keys(*line.command));
-  for (const auto& [key, value] : root.entries)
-    Apply(*FindFlag(key.scalar), value, line.given.count(key.scalar) > 0);
+  ApplySettings(ParseYamlFile(path),
+                fmt::format("the settings of {}", line.command->name),
+                Keys(*line.command),
+                line.given);
 }
 
 }  // namespace hexcal

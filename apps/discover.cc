@@ -25,18 +25,6 @@ namespace {
 
 constexpr std::string_view kDiscoveryMark = R"("format": "hexcal/discovery/)";
 
-DiscoverOptions OptionsFromFlags() {
-  DiscoverOptions options;
-  options.alpha = FLAGS_alpha;
-  options.bootstraps = FLAGS_bootstraps;
-  options.folds = FLAGS_folds;
-  if (FLAGS_noise_position > 0)
-    options.noise = NoiseLevels{FLAGS_noise_position, FLAGS_noise_orientation};
-  options.seed = static_cast<std::uint64_t>(FLAGS_seed);
-  options.threads = ThreadsFor(FLAGS_threads);
-  return options;
-}
-
 Discovery DiscoverWithBars(const Dataset& dataset, DiscoverOptions options) {
   StageBars bars(FLAGS_quiet);
   options.progress = [&bars](const char* stage, int done, int of) { bars.Update(stage, done, of); };
@@ -66,7 +54,7 @@ int RunDiscover(const std::vector<std::string>& files) {
                        {"report.html", HtmlPage::Mark("discover")}},
                       InputFiles(dataset, ""),
                       FLAGS_force);
-  const DiscoverOptions options = OptionsFromFlags();
+  const DiscoverOptions options = DiscoverOptionsFromFlags();
   const Discovery discovery = DiscoverWithBars(dataset, options);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -87,6 +75,18 @@ int RunDiscover(const std::vector<std::string>& files) {
 }
 
 }  // namespace
+
+DiscoverOptions DiscoverOptionsFromFlags() {
+  DiscoverOptions options;
+  options.alpha = FLAGS_alpha;
+  options.bootstraps = FLAGS_bootstraps;
+  options.folds = FLAGS_folds;
+  if (FLAGS_noise_position > 0)
+    options.noise = NoiseLevels{FLAGS_noise_position, FLAGS_noise_orientation};
+  options.seed = static_cast<std::uint64_t>(FLAGS_seed);
+  options.threads = ThreadsFor(FLAGS_threads);
+  return options;
+}
 
 Command DiscoverCommand() {
   return {

@@ -167,6 +167,7 @@ DEFINE_string(world_frame, "world", "What the others call the frame of the base'
 DEFINE_string(base_frame, "base", "What they call the base of the robot.");
 DEFINE_string(platform_frame, "platform", "What they call its platform.");
 DEFINE_string(tool_frame, "tool", "What they call the frame of the tool's markers.");
+DEFINE_bool(retry, false, "Work again on what failed, say because its file was mended.");
 DEFINE_int32(threads, 0, "Threads to use. The results do not depend on it.");
 DEFINE_bool(report, false, "Write report.html, too: the result with pictures, for the browser.");
 DEFINE_bool(json, false, "Print the results as JSON instead, one object a line.");
@@ -270,6 +271,7 @@ std::vector<FlagSpec> MakeSpecs() {
       {"platform_frame", kNames, "NAME", ""},
       {"tool_frame", kNames, "NAME", ""},
       {"config", kRunning, "FILE.yaml", ""},
+      {"retry", kRunning, "", ""},
       {"threads", kRunning, "N", "all cores", {}, 1, 1024},
   };
   const auto only_with = [&specs](

@@ -67,6 +67,7 @@ DECLARE_string(settings);
 DECLARE_string(requirement);
 DECLARE_string(previous);
 DECLARE_bool(gate);
+DECLARE_bool(retry);
 DECLARE_int32(threads);
 DECLARE_bool(report);
 DECLARE_bool(json);

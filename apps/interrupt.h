@@ -14,6 +14,22 @@ class WhileWriting {
   ~WhileWriting();
   WhileWriting(const WhileWriting&) = delete;
   WhileWriting& operator=(const WhileWriting&) = delete;
+
+ private:
+  bool in_patient_work_;
+};
+
+// While one stands, a first interrupt is only noted: the work asks for it, finishes what it is at
+// and ends. A second one does not wait. Whatever was noted is carried out at the end. One at a
+// time; WhileWriting may stand within.
+class PatientWork {
+ public:
+  PatientWork();
+  ~PatientWork();
+  PatientWork(const PatientWork&) = delete;
+  PatientWork& operator=(const PatientWork&) = delete;
+
+  static bool IsInterrupted();
 };
 
 }  // namespace hexcal

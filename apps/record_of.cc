@@ -14,6 +14,13 @@
 namespace hexcal {
 
 RunRecord RecordOf(std::string_view command, const Dataset& dataset, double seconds, int threads) {
+  return RecordOf(command, InputFiles(dataset, ""), seconds, threads);
+}
+
+RunRecord RecordOf(std::string_view command,
+                   const std::vector<std::string>& inputs,
+                   double seconds,
+                   int threads) {
   RunRecord record;
   record.version = VersionText();
   for (const CommandFlag& flag : FindCommand(command)->flags) {
@@ -21,7 +28,7 @@ RunRecord RecordOf(std::string_view command, const Dataset& dataset, double seco
     gflags::GetCommandLineOption(std::string(flag.name).c_str(), &value);
     record.settings.emplace_back(flag.name, value);
   }
-  record.inputs = InputFiles(dataset, "");
+  record.inputs = inputs;
   record.started_utc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   record.seconds = seconds;
   record.threads = threads;

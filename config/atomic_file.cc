@@ -38,73 +38,25 @@ std::string FolderOf(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
-// A new file beside the target, which nobody can guess or read; removed unless it takes the
-// target's place.
-class Temporary {
- public:
-  explicit Temporary(const std::string& target) : target_(target) {
-    constexpr int kTries = 100;
-    for (int i = 0; i < kTries && descriptor_ < 0; ++i) {
-      name_ = FolderOf(target) + "/" + RandomName();
-      descriptor_ =
-          Retry([&] { return open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600); });
-      if (descriptor_ < 0 && errno != EEXIST) break;
-    }
-    if (descriptor_ < 0) Fail(target_, "creating a temporary file beside it", errno);
-  }
+constexpr std::string_view kTemporaryStart = ".hexcal-";
+constexpr std::string_view kTemporaryEnd = ".tmp";
 
-  ~Temporary() {
-    if (descriptor_ >= 0) close(descriptor_);
-    if (!renamed_) unlink(name_.c_str());
-  }
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
+std::string RandomName(const std::string& target) {
+  std::uint64_t number = 0;
+  if (Retry([&] { return getrandom(&number, sizeof number, 0); }) != sizeof number)
+    Fail(target, "drawing a random name", errno);
+  return fmt::format("{}{:016x}{}", kTemporaryStart, number, kTemporaryEnd);
+}
 
-  void Write(std::string_view content) {
-    while (!content.empty()) {
-      const ssize_t count =
-          Retry([&] { return write(descriptor_, content.data(), content.size()); });
-      if (count < 0) Fail(target_, "writing", errno);
-      content.remove_prefix(static_cast<std::size_t>(count));
-    }
-  }
-
-  void Finish() {
-    if (fchmod(descriptor_, OrdinaryMode()) != 0) Fail(target_, "setting its mode", errno);
-    if (Retry([&] { return fsync(descriptor_); }) != 0) Fail(target_, "fsync", errno);
-    const int descriptor = descriptor_;
-    descriptor_ = -1;  // closed, whatever close says
-    if (close(descriptor) != 0 && errno != EINTR) Fail(target_, "closing", errno);
-  }
-
-  void Rename() {
-    if (rename(name_.c_str(), target_.c_str()) != 0) Fail(target_, "rename to it", errno);
-    renamed_ = true;
-  }
-
- private:
-  std::string RandomName() const {
-    std::uint64_t number = 0;
-    if (Retry([&] { return getrandom(&number, sizeof number, 0); }) != sizeof number)
-      Fail(target_, "drawing a random name", errno);
-    return fmt::format(".hexcal-{:016x}.tmp", number);
-  }
-
-  // The umask can only be read by setting it: to a strict one, so that a file that another thread
-  // creates in between is never too open; one thread at a time, so that it is set back.
-  static mode_t OrdinaryMode() {
-    static std::mutex mutex;
-    const std::lock_guard<std::mutex> lock(mutex);
-    const mode_t mask = umask(077);
-    umask(mask);
-    return static_cast<mode_t>(0666 & ~mask);
-  }
-
-  std::string target_;
-  std::string name_;
-  int descriptor_ = -1;
-  bool renamed_ = false;
-};
+// The umask can only be read by setting it: to a strict one, so that a file that another thread
+// creates in between is never too open; one thread at a time, so that it is set back.
+mode_t OrdinaryMode() {
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
+  const mode_t mask = umask(077);
+  umask(mask);
+  return static_cast<mode_t>(0666 & ~mask);
+}
 
 // The name, too, must survive a power failure.
 void SyncFolder(const std::string& target) {
@@ -121,12 +73,59 @@ void SyncFolder(const std::string& target) {
 
 }  // namespace
 
+// A new file beside the target, which nobody can guess or read; removed unless it takes the
+// target's place.
+AtomicFile::AtomicFile(const std::string& path) : path_(path) {
+  constexpr int kTries = 100;
+  for (int i = 0; i < kTries && descriptor_ < 0; ++i) {
+    temporary_ = FolderOf(path) + "/" + RandomName(path);
+    descriptor_ = Retry(
+        [&] { return open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600); });
+    if (descriptor_ < 0 && errno != EEXIST) break;
+  }
+  if (descriptor_ < 0) Fail(path_, "creating a temporary file beside it", errno);
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+  if (!renamed_) unlink(temporary_.c_str());
+}
+
+void AtomicFile::Write(std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t count = Retry([&] { return write(descriptor_, content.data(), content.size()); });
+    if (count < 0) Fail(path_, "writing", errno);
+    content.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+void AtomicFile::Commit() {
+  if (fchmod(descriptor_, OrdinaryMode()) != 0) Fail(path_, "setting its mode", errno);
+  if (Retry([&] { return fsync(descriptor_); }) != 0) Fail(path_, "fsync", errno);
+  const int descriptor = descriptor_;
+  descriptor_ = -1;  // closed, whatever close says
+  if (close(descriptor) != 0 && errno != EINTR) Fail(path_, "closing", errno);
+  if (rename(temporary_.c_str(), path_.c_str()) != 0) Fail(path_, "rename to it", errno);
+  renamed_ = true;
+  SyncFolder(path_);
+}
+
 void WriteFileAtomically(const std::string& path, std::string_view content) {
-  Temporary temporary(path);
-  temporary.Write(content);
-  temporary.Finish();
-  temporary.Rename();
-  SyncFolder(path);
+  AtomicFile file(path);
+  file.Write(content);
+  file.Commit();
+}
+
+void RemoveLeftTemporaries(const std::string& folder) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_temporary =
+        name.size() == kTemporaryStart.size() + 16 + kTemporaryEnd.size() &&
+        name.compare(0, kTemporaryStart.size(), kTemporaryStart) == 0 &&
+        name.compare(name.size() - kTemporaryEnd.size(), std::string::npos, kTemporaryEnd) == 0;
+    if (is_temporary) std::filesystem::remove(entry.path(), ignored);
+  }
 }
 
 void MakeFolder(const std::string& path) {

@@ -11,6 +11,28 @@ namespace hexcal {
 // folder. OutputError says which step failed and why; the temporary is removed then.
 void WriteFileAtomically(const std::string& path, std::string_view content);
 
+// The same for a file too large to hold: nothing of it is seen before Commit, and nothing is left
+// without it.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::string& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void Write(std::string_view content);
+  void Commit();
+
+ private:
+  std::string path_;
+  std::string temporary_;
+  int descriptor_ = -1;
+  bool renamed_ = false;
+};
+
+// Removes the temporaries that killed processes left in the folder. Only where nobody is writing.
+void RemoveLeftTemporaries(const std::string& folder);
+
 // Makes the folder and its parents. OutputError if a file is in the way.
 void MakeFolder(const std::string& path);
 

@@ -107,6 +107,7 @@ class FormMaker {
 
   void AddSearched(const ParameterKind& search) {
     const std::vector<double> grid = GridFor(kind_, search, visits_, rows_, reference_);
+    if (grid.empty()) return;  // too few poses to have a step between them
     const int offset = kind_.OffsetOf(search.name);
     // A straight line is what is meant first; its bent variants share what is left.
     const bool has_line = grid[0] == 0.0;

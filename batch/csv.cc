@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "batch/csv.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <type_traits>
+
+#include "config/utf8.h"
+
+namespace hexcal {
+namespace {
+
+constexpr int kLongestText = 300;
+
+struct AsText {
+  std::string operator()(std::monostate) const { return ""; }
+  std::string operator()(const std::string& text) const { return text; }
+  template <typename Number>
+  std::string operator()(Number number) const {
+    return fmt::format("{}", number);
+  }
+};
+
+Cell Stored(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) {
+    const std::string plain = PlainText(*text);
+    return plain.empty() ? Cell() : Cell(plain);
+  }
+  const auto* number = std::get_if<double>(&cell);
+  return number != nullptr && std::isnan(*number) ? Cell() : cell;
+}
+
+bool IsUtf8(const std::string& text) {
+  try {
+    RefuseBadText(text, {});
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+std::vector<Column> AllColumns(const Job& job) {
+  std::vector<Column> all = {{"status", CellKind::kText}, {"message", CellKind::kText}};
+  all.insert(all.end(), job.columns().begin(), job.columns().end());
+  return all;
+}
+
+std::string PlainText(std::string_view text) {
+  std::string plain;
+  for (const char c : text) {
+    const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+    plain += is_control ? ' ' : c == ',' ? ';' : c == '"' ? '\'' : c;
+  }
+  if (!IsUtf8(plain))
+    for (char& c : plain)
+      if (static_cast<unsigned char>(c) >= 0x80) c = '?';
+  plain = Shorten(plain, kLongestText);
+  plain.erase(0, plain.find_first_not_of(' '));
+  plain.erase(plain.find_last_not_of(' ') + 1);
+  const bool is_formula =
+      !plain.empty() && std::string_view("=+-@#").find(plain[0]) != std::string_view::npos;
+  return is_formula ? "'" + plain : plain;
+}
+
+Row MakeRow(std::int64_t index, const Outcome& outcome, const std::vector<Column>& all_columns) {
+  Row row;
+  row.index = index;
+  row.cells = {std::string(NameOf(outcome.status)), Stored(outcome.message)};
+  for (const Cell& cell : outcome.cells) row.cells.push_back(Stored(cell));
+  row.cells.resize(all_columns.size());
+  return row;
+}
+
+std::string CsvHeader(const std::vector<Column>& all_columns) {
+  std::string line = "study,idx";
+  for (const Column& column : all_columns) line += "," + column.name;
+  return line + "\n";
+}
+
+std::string CsvLine(const std::string& study, const Row& row) {
+  std::string line = fmt::format("{},{}", study, row.index);
+  for (const Cell& cell : row.cells) line += "," + std::visit(AsText(), cell);
+  return line + "\n";
+}
+
+}  // namespace hexcal
