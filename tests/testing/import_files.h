@@ -56,25 +56,37 @@ inline std::string ImportError(std::string_view format,
   return ImportErrorIn(TemporaryFolder(), format, text, options);
 }
 
-// Every beginning of a good file is read or refused with an InputError, and so is the file with any
-// one byte changed (a step apart): nothing else may happen. Counts how many were refused.
-inline int RefusedOfDamaged(std::string_view format, const std::string& good, std::size_t step) {
+// Every beginning of a good file is taken or refused with an InputError, and so is the file with
+// any one byte changed (a step apart): nothing else may happen. take: reads the text, gives the
+// error. Counts how many were refused.
+template <typename Take>
+int RefusedOfDamaged(Take&& take, const std::string& good, std::size_t step) {
   int refused = 0;
-  const TemporaryFolder folder;
-  const auto read = [&](const std::string& text) {
-    const std::string message = ImportErrorIn(folder, format, text);
+  const auto count = [&](const std::string& text) {
+    const std::string message = take(text);
     EXPECT_EQ(message.find("(another exception"), std::string::npos) << message;
     refused += message == "(no exception)" ? 0 : 1;
   };
-  for (std::size_t size = 0; size < good.size(); size += step) read(good.substr(0, size));
+  for (std::size_t size = 0; size < good.size(); size += step) count(good.substr(0, size));
   for (std::size_t at = 0; at < good.size(); at += step) {
     for (const char byte : {'\0', '\n', '-', '9', '\xff'}) {
       std::string bad = good;
       bad[at] = byte;
-      read(bad);
+      count(bad);
     }
   }
   return refused;
+}
+
+inline int RefusedOfDamaged(std::string_view format,
+                            const std::string& good,
+                            std::size_t step,
+                            const ImportOptions& options = {}) {
+  const TemporaryFolder folder;
+  return RefusedOfDamaged(
+      [&](const std::string& text) { return ImportErrorIn(folder, format, text, options); },
+      good,
+      step);
 }
 
 }  // namespace hexcal::testing
