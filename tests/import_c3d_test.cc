@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using testing::ImportError;
 using testing::MatrixNear;
 using testing::ReadImportText;
-using testing::RefusedOfDamaged;
+using testing::RefusedOfDamagedFiles;
 using ::testing::StartsWith;
 using Vector = Eigen::Vector3d;
 
@@ -136,8 +136,8 @@ TEST(C3d, RefusesWhatItIsNot) {
 // Any bytes in header and parameters: read or refused, never more.
 TEST(C3d, SurvivesDamage) {
   const std::string good = C3dBytes({});
-  EXPECT_GT(RefusedOfDamaged("c3d", good.substr(0, 24), 1), 20);
-  EXPECT_GT(RefusedOfDamaged("c3d", good, 37), 10);
+  EXPECT_GT(RefusedOfDamagedFiles("c3d", good.substr(0, 24), 1), 20);
+  EXPECT_GT(RefusedOfDamagedFiles("c3d", good, 37), 10);
   const testing::TemporaryFolder folder;
   std::mt19937_64 random = testing::SeededByTest();
   for (int repeat = 0; repeat < 300; ++repeat) {

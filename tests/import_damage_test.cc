@@ -18,6 +18,7 @@ using testing::ImportText;
 using testing::InputErrorText;
 using ::testing::Not;
 using testing::RefusedOfDamaged;
+using testing::RefusedOfDamagedFiles;
 using testing::TemporaryFolder;
 
 ImportOptions LabMap() {
@@ -43,7 +44,8 @@ const Sample kRecordings[] = {{"first_principles", "first_principles.tsv", 580},
 TEST(Damage, LeavesRecordingsReadOrRefused) {
   for (const Sample& sample : kRecordings) {
     const ImportOptions options = sample.format == "columns" ? LabMap() : ImportOptions{};
-    EXPECT_GT(RefusedOfDamaged(sample.format, ImportText(sample.file), 2, options), sample.refused)
+    EXPECT_GT(RefusedOfDamagedFiles(sample.format, ImportText(sample.file), 2, options),
+              sample.refused)
         << sample.format;
   }
 }

@@ -18,7 +18,7 @@ using testing::ImportPath;
 using testing::ImportText;
 using testing::MatrixNear;
 using testing::ReadImportText;
-using testing::RefusedOfDamaged;
+using testing::RefusedOfDamagedFiles;
 using testing::Replaced;
 using ::testing::StartsWith;
 using Vector = Eigen::Vector3d;
@@ -122,7 +122,7 @@ TEST(NdiCsv, RefusesWhatItIsNot) {
 }
 
 TEST(NdiCsv, SurvivesDamage) {
-  EXPECT_GT(RefusedOfDamaged("ndi_csv", ImportText("ndi_wide.csv"), 13), 200);
+  EXPECT_GT(RefusedOfDamagedFiles("ndi_csv", ImportText("ndi_wide.csv"), 13), 200);
 }
 
 TEST(PiGcs, ReadsPosesByTheNamesOfTheAxes) {
@@ -178,7 +178,7 @@ TEST(PiGcs, RefusesWhatItIsNot) {
 }
 
 TEST(PiGcs, SurvivesDamage) {
-  EXPECT_GT(RefusedOfDamaged("pi_gcs", ImportText("pi_gcs.dat"), 7), 80);
+  EXPECT_GT(RefusedOfDamagedFiles("pi_gcs", ImportText("pi_gcs.dat"), 7), 80);
 }
 
 }  // namespace

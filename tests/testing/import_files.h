@@ -78,10 +78,10 @@ int RefusedOfDamaged(Take&& take, const std::string& good, std::size_t step) {
   return refused;
 }
 
-inline int RefusedOfDamaged(std::string_view format,
-                            const std::string& good,
-                            std::size_t step,
-                            const ImportOptions& options = {}) {
+inline int RefusedOfDamagedFiles(std::string_view format,
+                                 const std::string& good,
+                                 std::size_t step,
+                                 const ImportOptions& options = {}) {
   const TemporaryFolder folder;
   return RefusedOfDamaged(
       [&](const std::string& text) { return ImportErrorIn(folder, format, text, options); },
