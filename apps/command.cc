@@ -10,6 +10,7 @@
 #include "apps/discover.h"
 #include "apps/export.h"
 #include "apps/import.h"
+#include "apps/pivot.h"
 #include "apps/plan.h"
 #include "apps/predict.h"
 #include "apps/simulate.h"
@@ -30,6 +31,7 @@ const std::vector<Command>& Commands() {
                                                 DiscoverCommand(),
                                                 ExportCommand(),
                                                 ImportCommand(),
+                                                PivotCommand(),
                                                 PlanCommand(),
                                                 PredictCommand(),
                                                 SimulateCommand()};

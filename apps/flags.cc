@@ -139,6 +139,7 @@ DEFINE_string(initial,
 DEFINE_string(map, "", "What the columns of the tracker's files mean (format columns).");
 DEFINE_string(robot_map, "", "What the columns of the robot's file mean.");
 DEFINE_string(name, "", "The name of the dataset.");
+DEFINE_string(units, "", "The units of length and angle of a table, which states none itself.");
 DEFINE_string(for,
               "",
               "What the next poses are for: the 12 parameters of base and tool, or telling the "
@@ -258,6 +259,11 @@ std::vector<FlagSpec> MakeSpecs() {
       {"robot_map", kFiles, "FILE.yaml", ""},
       {"initial", kFiles, "FILE.yaml", ""},
       {"name", kFiles, "NAME", "that of the folder"},
+      {"units",
+       kFiles,
+       "LENGTH,ANGLE",
+       "a YAML file states its own",
+       {"m,rad", "m,deg", "mm,rad", "mm,deg"}},
       {"for",
        kPlanning,
        "",

@@ -60,6 +60,7 @@ DECLARE_string(platform_frame);
 DECLARE_string(tool_frame);
 DECLARE_string(robot_map);
 DECLARE_string(name);
+DECLARE_string(units);
 DECLARE_string(for);
 DECLARE_int32(poses);
 DECLARE_int32(pool);

@@ -24,6 +24,25 @@ std::vector<std::size_t> All(std::size_t count) {
 
 }  // namespace
 
+PivotPoses MakePivotPoses(const Pivoting& pivoting, const std::optional<NoiseLevels>& noise) {
+  PivotPoses poses;
+  const bool has_shape = pivoting.dataset.measurement->kind == Measurement::Kind::kMarkers;
+  poses.noise = pivoting.poses.has_covariance || noise ? PivotNoise::kKnown
+                : has_shape                            ? PivotNoise::kUpToScale
+                                                       : PivotNoise::kUnknown;
+  const PoseNoise levels = {Eigen::Vector3d::Constant(noise ? noise->position : 0.0),
+                            Eigen::Vector3d::Constant(noise ? noise->orientation : 0.0)};
+  const bool takes_levels = noise && !pivoting.poses.has_covariance;
+  for (const ToolPose& pose : pivoting.poses.poses) {
+    const RobotPose& row = pivoting.dataset.robot_poses.rows[pose.pose];
+    poses.items.push_back({row.label,
+                           row.line,
+                           pose.world_from_tool,
+                           takes_levels ? levels.Covariance() : pose.covariance});
+  }
+  return poses;
+}
+
 Tilts FindTilts(const std::vector<PivotPose>& poses) {
   const std::vector<std::size_t> all = All(poses.size());
   const Eigen::Matrix3d mean = MeanRotation(poses, all);

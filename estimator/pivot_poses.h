@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "estimator/observations.h"
 #include "geometry/pose.h"
-#include "measurement/tool_pose.h"
+#include "measurement/pivoting.h"
 
 namespace hexcal {
 
@@ -27,6 +29,9 @@ struct PivotPoses {
   std::vector<PivotPose> items;
   PivotNoise noise = PivotNoise::kUnknown;
 };
+
+// The poses of a pivoting; noise: stated for them all where the file states none, m and rad.
+PivotPoses MakePivotPoses(const Pivoting& pivoting, const std::optional<NoiseLevels>& noise);
 
 // Algebra of R_i tip + t_i = pivot. Removing the pivot leaves (R_i - mean R) tip = -(t_i - mean t):
 // the tip is determined along directions that the rotations tilt. Reference: Z. Yaniv, Which pivot

@@ -8,8 +8,8 @@
 #include "config/strict_yaml.h"
 #include "measurement/checked_values.h"
 #include "measurement/covariates.h"
+#include "measurement/dataset_header.h"
 #include "measurement/dataset_warnings.h"
-#include "measurement/labels.h"
 #include "measurement/measurement_reader.h"
 #include "measurement/robot_poses_reader.h"
 #include "measurement/units_reader.h"
@@ -19,32 +19,6 @@ namespace {
 
 constexpr std::string_view kFormat = "hexcal/dataset/1";
 constexpr double kAbsoluteZero = -273.15;  // degC
-
-// Before anything else: a file of another version may have other keys.
-void CheckFormat(const YamlNode& root) {
-  if (root.kind != YamlNode::Kind::kMap) return;  // MapReader says it better
-  for (const auto& [key, value] : root.entries) {
-    if (key.scalar != "format") continue;
-    const std::string format = ReadText(value, kFormat);
-    if (format == kFormat) return;
-    throw InputError(value.where,
-                     fmt::format("the format {}", Quoted(format)),
-                     fmt::format("{}, which this version of hexcal reads", kFormat));
-  }
-  throw InputError(root.where, "no key 'format'", fmt::format("'format: {}'", kFormat));
-}
-
-std::string ReadName(const YamlNode& node) {
-  const std::string name = ReadText(node, "a name");
-  const bool has_only_allowed =
-      name.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-") ==
-      std::string::npos;
-  if (has_only_allowed && !name.empty() && name != "." && name != "..") return name;
-  throw InputError(
-      node.where,
-      fmt::format("the name {}", Quoted(name)),
-      "letters, digits, '.', '_' and '-' only (it becomes the name of a folder of results)");
-}
 
 Eigen::Vector3d ReadGravity(const YamlNode& node) {
   const std::vector<double> g = ReadNumbers(node, 3, "gravity [x, y, z]");
@@ -109,7 +83,7 @@ Matrix6d PoseNoise::Covariance() const {
 
 Dataset ReadDataset(const std::string& path, bool needs_measurement) {
   const YamlNode root = ParseYamlFile(path);
-  CheckFormat(root);
+  CheckFormat(root, kFormat);
   const MapReader map(root,
                       "the dataset",
                       {"format",

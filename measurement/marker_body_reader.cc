@@ -120,10 +120,15 @@ MarkerBody ReadBody(const YamlNode& node, std::string_view name, const Units& un
 
 }  // namespace
 
-std::array<MarkerBody, 2> ReadMarkerBodies(const YamlNode& node, const Units& units) {
+std::array<MarkerBody, 2> ReadMarkerBodies(const YamlNode& node,
+                                           const Units& units,
+                                           bool needs_base) {
   const MapReader map(node, "bodies", {kBodyNames[0], kBodyNames[1]});
-  return {ReadBody(map.Required(kBodyNames[0]), kBodyNames[0], units),
-          ReadBody(map.Required(kBodyNames[1]), kBodyNames[1], units)};
+  std::array<MarkerBody, 2> bodies;
+  if (needs_base || map.Has(kBodyNames[0]))
+    bodies[0] = ReadBody(map.Required(kBodyNames[0]), kBodyNames[0], units);
+  bodies[1] = ReadBody(map.Required(kBodyNames[1]), kBodyNames[1], units);
+  return bodies;
 }
 
 }  // namespace hexcal

@@ -16,6 +16,44 @@ namespace {
 
 constexpr int kFewestPoses = 3;
 
+// Poses in which the tool was seen and, unless the tracker stood still throughout, the base too.
+int CountMeasuredPoses(const Measurement& measurement, int num_poses, bool tracker_is_static) {
+  if (measurement.kind == Measurement::Kind::kPoses)
+    return static_cast<int>(measurement.poses.size());
+  std::array<std::vector<char>, 2> seen = {std::vector<char>(num_poses),
+                                           std::vector<char>(num_poses)};
+  for (const MarkerReading& reading : measurement.readings)
+    seen[static_cast<int>(reading.body)][reading.pose] = 1;
+  const bool has_base = !measurement.bodies[0].markers.empty();
+  const bool base_was_seen = !has_base || std::count(seen[0].begin(), seen[0].end(), 1) > 0;
+  int count = 0;
+  for (int pose = 0; pose < num_poses; ++pose)
+    if (seen[1][pose] && (tracker_is_static || !has_base ? base_was_seen : seen[0][pose] == 1))
+      ++count;
+  return count;
+}
+
+void CheckEnoughPoses(const Measurement& measurement, int num_poses, bool tracker_is_static) {
+  const int count = CountMeasuredPoses(measurement, num_poses, tracker_is_static);
+  if (count >= kFewestPoses) return;
+  const bool markers = measurement.kind == Measurement::Kind::kMarkers;
+  throw InputError(measurement.where,
+                   fmt::format("{} measured pose{}{}",
+                               count,
+                               count == 1 ? "" : "s",
+                               markers ? " with both bodies seen" : ""),
+                   fmt::format("at least {}", kFewestPoses));
+}
+
+Measurement::Kind ReadKind(const YamlNode& node) {
+  const std::string kind = ReadText(node, "markers or poses");
+  if (kind == "markers") return Measurement::Kind::kMarkers;
+  if (kind == "poses") return Measurement::Kind::kPoses;
+  throw InputError(node.where, fmt::format("the kind {}", Quoted(kind)), "markers or poses");
+}
+
+}  // namespace
+
 void ReadPoseTable(TableReader& table,
                    const RobotPoses& robot_poses,
                    const ReadContext& context,
@@ -49,53 +87,18 @@ void ReadPoseTable(TableReader& table,
   }
 }
 
-// Poses in which the tool was seen and, unless the tracker stood still throughout, the base too.
-int CountMeasuredPoses(const Measurement& measurement, int num_poses, bool tracker_is_static) {
-  if (measurement.kind == Measurement::Kind::kPoses)
-    return static_cast<int>(measurement.poses.size());
-  std::array<std::vector<char>, 2> seen = {std::vector<char>(num_poses),
-                                           std::vector<char>(num_poses)};
-  for (const MarkerReading& reading : measurement.readings)
-    seen[static_cast<int>(reading.body)][reading.pose] = 1;
-  const bool base_was_seen = std::count(seen[0].begin(), seen[0].end(), 1) > 0;
-  int count = 0;
-  for (int pose = 0; pose < num_poses; ++pose)
-    if (seen[1][pose] && (tracker_is_static ? base_was_seen : seen[0][pose] == 1)) ++count;
-  return count;
-}
-
-void CheckEnoughPoses(const Measurement& measurement, int num_poses, bool tracker_is_static) {
-  const int count = CountMeasuredPoses(measurement, num_poses, tracker_is_static);
-  if (count >= kFewestPoses) return;
-  const bool markers = measurement.kind == Measurement::Kind::kMarkers;
-  throw InputError(measurement.where,
-                   fmt::format("{} measured pose{}{}",
-                               count,
-                               count == 1 ? "" : "s",
-                               markers ? " with both bodies seen" : ""),
-                   fmt::format("at least {}", kFewestPoses));
-}
-
-Measurement::Kind ReadKind(const YamlNode& node) {
-  const std::string kind = ReadText(node, "markers or poses");
-  if (kind == "markers") return Measurement::Kind::kMarkers;
-  if (kind == "poses") return Measurement::Kind::kPoses;
-  throw InputError(node.where, fmt::format("the kind {}", Quoted(kind)), "markers or poses");
-}
-
-}  // namespace
-
 Measurement ReadMeasurement(const YamlNode& node,
                             const RobotPoses& robot_poses,
                             bool tracker_is_static,
                             bool needs_readings,
-                            const ReadContext& context) {
+                            const ReadContext& context,
+                            bool needs_base) {
   const MapReader map(node, "measurement", {"kind", "file", "rows", "noise", "bodies"});
   Measurement measurement;
   measurement.kind = ReadKind(map.Required("kind"));
   const YamlNode* noise = map.Optional("noise");
   if (measurement.kind == Measurement::Kind::kMarkers) {
-    measurement.bodies = ReadMarkerBodies(map.Required("bodies"), context.units);
+    measurement.bodies = ReadMarkerBodies(map.Required("bodies"), context.units, needs_base);
     if (noise != nullptr) {
       const MapReader noise_map(*noise, "the noise of markers", {"sigma"});
       measurement.marker_sigma =

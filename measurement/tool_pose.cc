@@ -99,7 +99,10 @@ class MarkersToPoses {
   }
 
   ToolPoses Run() {
-    if (dataset_.tracker.is_static) FitCommonWorld();
+    if (measurement_.bodies[0].markers.empty())
+      common_world_ = Alignment();  // W is the tracker's frame
+    else if (dataset_.tracker.is_static)
+      FitCommonWorld();
     for (int pose = 0; pose < static_cast<int>(dataset_.robot_poses.rows.size()); ++pose)
       AddPose(pose);
     return std::move(result_);

@@ -10,17 +10,17 @@
 #include "estimator/quantiles.h"
 #include "geometry/linear_algebra.h"
 #include "testing/matchers.h"
-#include "testing/pivoting.h"
+#include "testing/pivot_scene.h"
 
 namespace hexcal {
 namespace {
 
+using ::hexcal::testing::DrawPivotPoses;
 using ::hexcal::testing::IsotropicNoise;
-using ::hexcal::testing::MakePivotPoses;
 using ::hexcal::testing::MatrixNear;
 using ::hexcal::testing::NumericJacobian;
-using ::hexcal::testing::Pivoting;
 using ::hexcal::testing::PivotPoseAt;
+using ::hexcal::testing::PivotScene;
 using ::hexcal::testing::SeededByTest;
 using ::hexcal::testing::UniformVector;
 using ::hexcal::testing::WithNoise;
@@ -37,7 +37,7 @@ std::vector<bool> All(const PivotPoses& poses) {
   return std::vector<bool>(poses.items.size(), true);
 }
 
-Eigen::Vector3d TipOff(const PivotSolution& solution, const Pivoting& pivoting) {
+Eigen::Vector3d TipOff(const PivotSolution& solution, const PivotScene& pivoting) {
   return solution.fit.x.tip_in_tool - pivoting.truth.tip_in_tool;
 }
 
@@ -79,9 +79,9 @@ TEST(Pivot, RecoversTipAndPivotWithoutNoise) {
   for (const double cone : {0.02, 0.5, 2.0})
     for (const PivotNoise noise :
          {PivotNoise::kKnown, PivotNoise::kUpToScale, PivotNoise::kUnknown}) {
-      Pivoting pivoting;
+      PivotScene pivoting;
       pivoting.cone = cone;
-      PivotPoses poses = MakePivotPoses(pivoting, kNoise, rng);
+      PivotPoses poses = DrawPivotPoses(pivoting, kNoise, rng);
       poses.noise = noise;
       const PivotResult result = CalibratePivot(poses, {});
       EXPECT_TRUE(result.IsTrustworthy());
@@ -93,7 +93,7 @@ TEST(Pivot, RecoversTipAndPivotWithoutNoise) {
 
 TEST(Pivot, MovingTheWorldMovesThePivotAlone) {
   auto rng = SeededByTest();
-  const PivotPoses poses = WithNoise(MakePivotPoses({}, kNoise, rng), rng);
+  const PivotPoses poses = WithNoise(DrawPivotPoses({}, kNoise, rng), rng);
   PivotPoses moved = poses;
   const Pose3d other_from_world = testing::RandomPose(rng, 1.0);
   for (PivotPose& pose : moved.items)
@@ -107,7 +107,7 @@ TEST(Pivot, MovingTheWorldMovesThePivotAlone) {
 
 TEST(Pivot, JacobiansAgreeWithDifferences) {
   auto rng = SeededByTest();
-  const Pivoting pivoting;
+  const PivotScene pivoting;
   const Pose3d pose = testing::RandomPose(rng, 1.0);
   // At the pivot, where the motion of the axes that the error is given in does not show.
   const TipAndPivot x = {pivoting.truth.tip_in_tool, pose * pivoting.truth.tip_in_tool};
@@ -142,12 +142,12 @@ struct FullError {
 
 TEST(Pivot, AgreesWithCeresOnAllPosesAndTipTogether) {
   auto rng = SeededByTest();
-  Pivoting pivoting;
+  PivotScene pivoting;
   pivoting.poses = 9;
   Matrix6d noise = IsotropicNoise(2e-3, 1e-2);
   noise(0, 0) *= 4.0;
   noise(0, 4) = noise(4, 0) = 1e-5;
-  const PivotPoses poses = WithNoise(MakePivotPoses(pivoting, noise, rng), rng);
+  const PivotPoses poses = WithNoise(DrawPivotPoses(pivoting, noise, rng), rng);
   const PivotSolution own = SolvePivot(poses, All(poses), {});
 
   Eigen::Vector3d tip = own.fit.x.tip_in_tool + Eigen::Vector3d(0.01, 0.02, -0.01);
@@ -188,7 +188,7 @@ TEST(Pivot, AgreesWithCeresOnAllPosesAndTipTogether) {
 // Where only positions err and all weights are equal, the maximum likelihood is least squares.
 TEST(Pivot, IsLeastSquaresWhereOnlyPositionsErr) {
   auto rng = SeededByTest();
-  const PivotPoses poses = WithNoise(MakePivotPoses({}, IsotropicNoise(1e-3, 1e-12), rng), rng);
+  const PivotPoses poses = WithNoise(DrawPivotPoses({}, IsotropicNoise(1e-3, 1e-12), rng), rng);
   const auto n = static_cast<Eigen::Index>(poses.items.size());
   Eigen::MatrixXd a(3 * n, 6);
   Eigen::VectorXd b(3 * n);
@@ -210,10 +210,10 @@ TEST(Pivot, IsLeastSquaresWhereOnlyPositionsErr) {
 // rotation.
 TEST(Pivot, AgreesWithTheSphereThroughTheOrigins) {
   auto rng = SeededByTest();
-  Pivoting pivoting;
+  PivotScene pivoting;
   pivoting.poses = 200;
   const PivotPoses poses =
-      WithNoise(MakePivotPoses(pivoting, IsotropicNoise(1e-5, 1e-4), rng), rng);
+      WithNoise(DrawPivotPoses(pivoting, IsotropicNoise(1e-5, 1e-4), rng), rng);
   Eigen::MatrixXd a(pivoting.poses, 4);
   Eigen::VectorXd b(pivoting.poses);
   for (int i = 0; i < pivoting.poses; ++i) {
@@ -236,7 +236,7 @@ struct Coverage {
 
 template <typename Rng>
 Coverage Cover(
-    const Pivoting& pivoting, const PivotPoses& clean, PivotNoise noise, int draws, Rng& rng) {
+    const PivotScene& pivoting, const PivotPoses& clean, PivotNoise noise, int draws, Rng& rng) {
   Coverage coverage;
   Vector6d truth;
   truth << pivoting.truth.tip_in_tool, pivoting.truth.pivot_in_world;
@@ -270,31 +270,31 @@ void ExpectCovers(const Coverage& coverage) {
 
 TEST(Pivot, StatedNoiseCovers) {
   auto rng = SeededByTest();
-  Pivoting pivoting;
+  PivotScene pivoting;
   pivoting.poses = 15;
   Matrix6d noise = IsotropicNoise(1e-4, 1e-3);
   noise(2, 2) *= 9.0;
   noise(2, 3) = noise(3, 2) = 1e-7;
-  const PivotPoses clean = MakePivotPoses(pivoting, noise, rng);
+  const PivotPoses clean = DrawPivotPoses(pivoting, noise, rng);
   ExpectCovers(Cover(pivoting, clean, PivotNoise::kKnown, 6000, rng));
   ExpectCovers(Cover(pivoting, clean, PivotNoise::kUpToScale, 4000, rng));
 }
 
 TEST(Pivot, EstimatedNoiseCovers) {
   auto rng = SeededByTest();
-  Pivoting pivoting;
+  PivotScene pivoting;
   pivoting.poses = 40;
-  const PivotPoses clean = MakePivotPoses(pivoting, kNoise, rng);
+  const PivotPoses clean = DrawPivotPoses(pivoting, kNoise, rng);
   ExpectCovers(Cover(pivoting, clean, PivotNoise::kUnknown, 3000, rng));
 }
 
 // Noise in the rotations shrinks what least squares on [R -1] finds; not this.
 TEST(Pivot, NoiseInRotationsDoesNotShrinkTheTip) {
   auto rng = SeededByTest();
-  Pivoting pivoting;
+  PivotScene pivoting;
   pivoting.poses = 200;
   pivoting.cone = 0.1;
-  const PivotPoses clean = MakePivotPoses(pivoting, IsotropicNoise(1e-4, 1e-2), rng);
+  const PivotPoses clean = DrawPivotPoses(pivoting, IsotropicNoise(1e-4, 1e-2), rng);
   constexpr int kDraws = 200;
   double own = 0.0, own_squares = 0.0, algebraic = 0.0;
   std::vector<std::size_t> indices;
@@ -315,7 +315,7 @@ TEST(Pivot, NoiseInRotationsDoesNotShrinkTheTip) {
 
 TEST(Pivot, EstimatesTheNoise) {
   auto rng = SeededByTest();
-  const PivotPoses clean = MakePivotPoses({}, kNoise, rng);
+  const PivotPoses clean = DrawPivotPoses({}, kNoise, rng);
   constexpr int kDraws = 400;
   double position = 0.0, orientation = 0.0, scale = 0.0;
   for (int k = 0; k < kDraws; ++k) {
@@ -335,9 +335,9 @@ TEST(Pivot, EstimatesTheNoise) {
 
 TEST(Pivot, NamesOutliersAndFitsAroundThem) {
   auto rng = SeededByTest();
-  const Pivoting pivoting;
+  const PivotScene pivoting;
   for (const PivotNoise noise : {PivotNoise::kKnown, PivotNoise::kUnknown}) {
-    PivotPoses poses = WithNoise(MakePivotPoses(pivoting, kNoise, rng), rng);
+    PivotPoses poses = WithNoise(DrawPivotPoses(pivoting, kNoise, rng), rng);
     poses.noise = noise;
     // The tip slipped, together in one direction; and one reading of another body.
     for (const std::size_t i : {3, 4, 5, 6, 11, 19})
@@ -366,7 +366,7 @@ TEST(Pivot, NamesOutliersAndFitsAroundThem) {
 
 TEST(Pivot, OneCleanSetInAHundredListsAnOutlier) {
   auto rng = SeededByTest();
-  const PivotPoses clean = MakePivotPoses({}, kNoise, rng);
+  const PivotPoses clean = DrawPivotPoses({}, kNoise, rng);
   constexpr int kDraws = 400;
   for (const PivotNoise noise : {PivotNoise::kKnown, PivotNoise::kUnknown}) {
     int alarms = 0;
@@ -381,7 +381,7 @@ TEST(Pivot, OneCleanSetInAHundredListsAnOutlier) {
 
 TEST(Pivot, TurnsAboutOneAxisTellTheTipAcrossItOnly) {
   auto rng = SeededByTest();
-  const Pivoting pivoting;
+  const PivotScene pivoting;
   const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, 3).normalized();
   PivotPoses poses;
   for (int i = 0; i < 20; ++i)
@@ -405,7 +405,7 @@ TEST(Pivot, TurnsAboutOneAxisTellTheTipAcrossItOnly) {
 }
 
 TEST(Pivot, ALostAxisLeavesTheOtherTwoCoordinates) {
-  const Pivoting pivoting;
+  const PivotScene pivoting;
   PivotPoses poses;
   poses.noise = PivotNoise::kKnown;
   for (int i = 0; i < 8; ++i)
@@ -431,20 +431,20 @@ TEST(Pivot, TranslationsTellNothing) {
 
 TEST(Pivot, ATooSmallConeIsLostAndASmallOneWarnedOf) {
   auto rng = SeededByTest();
-  Pivoting pivoting;
+  PivotScene pivoting;
   pivoting.cone = 0.003;  // of 0.001 rad noise
-  EXPECT_GE(CalibratePivot(WithNoise(MakePivotPoses(pivoting, kNoise, rng), rng), {}).lost_count(),
+  EXPECT_GE(CalibratePivot(WithNoise(DrawPivotPoses(pivoting, kNoise, rng), rng), {}).lost_count(),
             1);
   pivoting.cone = 0.01;
   const PivotResult small =
-      CalibratePivot(WithNoise(MakePivotPoses(pivoting, kNoise, rng), rng), {});
+      CalibratePivot(WithNoise(DrawPivotPoses(pivoting, kNoise, rng), rng), {});
   EXPECT_TRUE(small.IsTrustworthy());
   EXPECT_THAT(small.warnings.back(), HasSubstr("tilt the tool further"));
 }
 
 TEST(Pivot, NoiseThatWasUnderstatedIsSaid) {
   auto rng = SeededByTest();
-  PivotPoses poses = WithNoise(MakePivotPoses({}, kNoise, rng), rng);
+  PivotPoses poses = WithNoise(DrawPivotPoses({}, kNoise, rng), rng);
   for (PivotPose& pose : poses.items) pose.covariance *= 0.25;
   const PivotResult result = CalibratePivot(poses, {});
   EXPECT_GT(result.chi_square, result.chi_square_high);

@@ -12,7 +12,7 @@
 namespace hexcal::testing {
 
 // A tool whose tip rests at pivot while its axes are tilted by up to cone rad about a random axis.
-struct Pivoting {
+struct PivotScene {
   TipAndPivot truth = {{0.012, -0.007, 0.15}, {0.3, -0.2, 1.8}};
   int poses = 30;
   double cone = 0.5;
@@ -31,7 +31,7 @@ inline PivotPose PivotPoseAt(const Eigen::Quaterniond& rotation,
 
 // Poses without noise. covariance: stated for each, not drawn.
 template <typename Rng>
-PivotPoses MakePivotPoses(const Pivoting& pivoting, const Matrix6d& covariance, Rng& rng) {
+PivotPoses DrawPivotPoses(const PivotScene& pivoting, const Matrix6d& covariance, Rng& rng) {
   PivotPoses poses;
   poses.noise = PivotNoise::kKnown;
   const Eigen::Quaterniond stand = Exp(Eigen::Vector3d(0.4, -0.9, 0.3));
