@@ -13,6 +13,7 @@
 #include "apps/pivot.h"
 #include "apps/plan.h"
 #include "apps/predict.h"
+#include "apps/schema.h"
 #include "apps/simulate.h"
 
 namespace hexcal {
@@ -34,6 +35,7 @@ const std::vector<Command>& Commands() {
                                                 PivotCommand(),
                                                 PlanCommand(),
                                                 PredictCommand(),
+                                                SchemaCommand(),
                                                 SimulateCommand()};
   return commands;
 }

@@ -21,11 +21,6 @@ gflags::CommandLineFlagInfo Info(const FlagSpec& spec) {
   return info;
 }
 
-bool IsWholeNumber(const FlagSpec& spec) {
-  const std::string type = Info(spec).type;
-  return type == "int32" || type == "int64";
-}
-
 bool InRange(const FlagSpec& spec, double value) {
   if (spec.low_excluded && value == spec.low) return false;
   return value >= spec.low && value <= spec.high;  // false for nan
@@ -64,6 +59,11 @@ std::string JoinChoices(const std::vector<std::string_view>& choices) {
 }  // namespace
 
 bool IsSwitch(const FlagSpec& spec) { return Info(spec).type == "bool"; }
+
+bool IsWholeNumber(const FlagSpec& spec) {
+  const std::string type = Info(spec).type;
+  return type == "int32" || type == "int64";
+}
 
 bool IsNumber(const FlagSpec& spec) { return IsWholeNumber(spec) || Info(spec).type == "double"; }
 

@@ -10,6 +10,7 @@
 namespace hexcal {
 
 bool IsSwitch(const FlagSpec& spec);  // true or false, --name and --noname
+bool IsWholeNumber(const FlagSpec& spec);
 bool IsNumber(const FlagSpec& spec);  // a whole number or a real one
 bool WasGiven(const FlagSpec& spec);  // on the command line or in the config file
 std::string CurrentText(const FlagSpec& spec);

@@ -51,20 +51,8 @@ std::string Form(const CommandFlag& own) {
   return fmt::format("--{}={}", own.name, own.value.empty() ? spec.value : own.value);
 }
 
-std::string Description(const CommandFlag& own) {
-  const FlagSpec& spec = *FindFlag(own.name);
-  gflags::CommandLineFlagInfo info;
-  gflags::GetCommandLineFlagInfo(std::string(own.name).c_str(), &info);
-  std::string text(own.help.empty() ? info.description : own.help);
-  if (IsNumber(spec)) text += fmt::format(" {}{}.", "Takes ", ExpectedText(spec));
-  if (own.required) return text + " Required.";
-  const std::string default_text = DefaultText(spec);
-  if (!default_text.empty()) text += fmt::format(" Default: {}.", default_text);
-  return text;
-}
-
 std::string FlagHelp(const CommandFlag& own) {
-  return fmt::format("  {}\n{}", Form(own), Wrap(Description(own), 6));
+  return fmt::format("  {}\n{}", Form(own), Wrap(FlagText(own), 6));
 }
 
 // The groups in the order of the table of flags.
@@ -92,12 +80,24 @@ Exit status
 
 }  // namespace
 
+std::string FlagText(const CommandFlag& own) {
+  const FlagSpec& spec = *FindFlag(own.name);
+  gflags::CommandLineFlagInfo info;
+  gflags::GetCommandLineFlagInfo(std::string(own.name).c_str(), &info);
+  std::string text(own.help.empty() ? info.description : own.help);
+  if (IsNumber(spec)) text += fmt::format(" {}{}.", "Takes ", ExpectedText(spec));
+  if (own.required) return text + " Required.";
+  const std::string default_text = DefaultText(spec);
+  if (!default_text.empty()) text += fmt::format(" Default: {}.", default_text);
+  return text;
+}
+
 std::string UsageLine(const Command& command) {
   std::string text = fmt::format("hexcal {} {}", command.name, command.arguments);
   for (const CommandFlag& own : command.flags) {
     if (own.required) text += " " + Form(own);
   }
-  return text + " [flags]";
+  return command.flags.empty() ? text : text + " [flags]";
 }
 
 std::string CommandHelp(const Command& command) {
@@ -110,6 +110,7 @@ std::string CommandHelp(const Command& command) {
     }
     if (!flags.empty()) text += fmt::format("\n{}\n{}", group, flags);
   }
+  if (command.flags.empty()) return text;
   text += "\nA switch such as --quiet is turned off by --noquiet. What follows -- is a file.\n";
   return text;
 }

@@ -41,6 +41,12 @@ std::vector<ColumnName> ReadColumns(const YamlNode& node, std::size_t size) {
   return columns;
 }
 
+const std::vector<std::pair<YamlNode, YamlNode>>& EntriesOf(const YamlNode& node,
+                                                            std::string_view expected) {
+  if (node.kind != YamlNode::Kind::kMap) throw InputError(node.where, Describe(node), expected);
+  return node.entries;
+}
+
 void ReadOrder(const YamlNode& node, MappedBody& body) {
   body.order = ReadText(node, "an order of rotations");
   if (body.kind != MappedBody::Rotation::kAngles)
@@ -140,9 +146,10 @@ ColumnMap ReadColumnMap(const std::string& path) {
                                            {{"s", 1.0}, {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}});
   }
   if (const YamlNode* node = map.Optional("bodies"))
-    for (const auto& [name, body] : node->entries) columns.bodies.push_back(ReadBody(name, body));
+    for (const auto& [name, body] : EntriesOf(*node, "bodies by their names"))
+      columns.bodies.push_back(ReadBody(name, body));
   if (const YamlNode* node = map.Optional("markers"))
-    for (const auto& [name, position] : node->entries)
+    for (const auto& [name, position] : EntriesOf(*node, "markers by their names"))
       columns.markers.push_back({name.scalar, ReadColumns(position, 3)});
   if (columns.bodies.empty() && columns.markers.empty())
     throw InputError(root.where, "neither bodies nor markers", "some of them, as mappings");
