@@ -17,6 +17,8 @@ std::string_view DiscoverySchemaText();
 std::string_view AuditSchemaText();
 std::string_view CompareSchemaText();
 std::string_view PlanSchemaText();
+std::string_view PivotingSchemaText();
+std::string_view PivotSchemaText();
 std::string_view RunSchemaText();
 
 }  // namespace hexcal

@@ -61,11 +61,13 @@ const std::vector<SchemaInfo>& Schemas() {
       {"settings", "--config files, of all commands or of one", nullptr},
       {"requirement", "--requirement of audit", &RequirementSchemaText},
       {"columns", "--map and --robot_map of import", &ColumnsSchemaText},
+      {"pivoting", "what pivot reads", &PivotingSchemaText},
       {"result", "result.json of calibrate, audit and discover", &ResultSchemaText},
       {"discovery", "discovery.json", &DiscoverySchemaText},
       {"audit", "audit.json", &AuditSchemaText},
       {"compare", "compare.json", &CompareSchemaText},
       {"plan", "plan.json", &PlanSchemaText},
+      {"pivot", "pivot.json", &PivotSchemaText},
       {"run", "run.json, beside each of them", &RunSchemaText}};
   return schemas;
 }

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "apps/schemas.h"
 #include "measurement/dataset.h"
 #include "measurement/importers/column_map.h"
+#include "measurement/pivoting.h"
 #include "model/machine.h"
 #include "report/requirement.h"
 #include "testing/json_schema.h"
@@ -44,6 +46,7 @@ std::string Refusal(const std::string& kind, const std::string& path) {
     if (kind == "model") ReadMachine(path);
     if (kind == "requirement") ReadRequirements(path);
     if (kind == "columns") ReadColumnMap(path);
+    if (kind == "pivoting") ReadPivoting(path);
     if (kind == "settings") {
       const gflags::FlagSaver flags_as_they_were;
       CommandLine line;
@@ -120,6 +123,22 @@ bool IsBeyondSchemas(const std::string& refusal) {
   return false;
 }
 
+void CollectKeys(const Json& schema, std::set<std::string>& keys);
+
+// What the reader lists as its keys when it meets an unknown one, the schema knows, too.
+void ExpectKeysKnown(const std::string& refusal, const std::set<std::string>& known) {
+  if (refusal.find("the unknown key 'zzzz'") == std::string::npos) return;
+  for (const char* start : {"expected one of ", "expected only "}) {
+    const std::size_t at = refusal.find(start);
+    if (at == std::string::npos) continue;
+    std::istringstream words(refusal.substr(at + std::string(start).size()));
+    for (std::string word; words >> word;) {
+      if (word.back() == ',') word.pop_back();
+      EXPECT_EQ(known.count(word), 1u) << word << " of " << refusal;
+    }
+  }
+}
+
 // Judged by both, every mistake in every sample of a kind.
 void ExpectTheSameOfMistakes(const std::string& kind,
                              const Json& schema,
@@ -138,11 +157,14 @@ void ExpectTheSameOfMistakes(const std::string& kind,
   }
   for (const Json& document : documents) check.Add(kind, document);
   const std::vector<std::string> verdicts = check.Judge();
+  std::set<std::string> known;
+  CollectKeys(schema, known);
   int refused = 0;
   for (std::size_t i = 0; i < documents.size(); ++i) {
     const std::string text = documents[i].dump();
     const std::string refusal = Refusal(kind, folder.Write("sample.yaml", text));
     refused += refusal.empty() ? 0 : 1;
+    ExpectKeysKnown(refusal, known);
     if (refusal.empty()) {
       EXPECT_EQ(verdicts[i], "") << text;
     } else if (verdicts[i].empty()) {
@@ -199,6 +221,9 @@ TEST(Schema, OfRequirementsAgreesWithTheReader) {
 }
 TEST(Schema, OfColumnMapsAgreesWithTheReader) {
   ExpectAgreement("columns", Parsed(testing::ColumnSamples()));
+}
+TEST(Schema, OfPivotingsAgreesWithTheReader) {
+  ExpectAgreement("pivoting", Parsed(testing::PivotingSamples()));
 }
 TEST(Schema, OfSettingsAgreesWithTheReader) {
   const Command* command = FindCommand("calibrate");

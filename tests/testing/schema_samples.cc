@@ -107,6 +107,33 @@ markers:
   M1: [M1x, M1y, M1z]
 )";
 
+constexpr const char* kPivotingMarkers = R"(format: hexcal/pivoting/1
+name: probe
+description: about its tip
+units: {length: mm, angle: deg}
+tracker: {static: true}
+measurement:
+  kind: markers
+  file: pivoting.csv
+  noise: {sigma: 0.1}
+  bodies:
+    base: {frame: rigid, markers: {b1: [0, 0, 0], b2: [200, 0, 0], b3: [0, 150, 0]}}
+    tool: {frame: centroid, markers: [t1, t2, t3], x_axis: [t1, t2]}
+)";
+
+constexpr const char* kPivotingPoses = R"(format: hexcal/pivoting/1
+name: probe
+units: {length: m, angle: rad}
+measurement:
+  kind: poses
+  rows:
+    - [pose, x, y, z, rx, ry, rz]
+    - [1, 0, 0, 0.1, 0, 0, 0]
+    - [2, 0, 0.01, 0.1, 0, 0.1, 0]
+    - [3, 0.01, 0, 0.1, 0.1, 0, 0]
+  noise: {position: 0.001, orientation: 0.001}
+)";
+
 constexpr const char* kModelHead = R"(format: hexcal/model/1
 dataset: bench
 world_from_base: {xyz: [0.3, -0.2, 0.1], quaternion: [1, 0, 0, 0]}
@@ -127,6 +154,19 @@ pose_map:
   box: {centre: [0, 0, 0, 0, 0, 0], half_width: [1, 1, 1, 1, 1, 1]}
   coefficients: [[0,0,0,0,0,0,0], [0,0,0,0,0,0,0], [0,0,0,0,0,0,0], [0,0,0,0,0,0,0], [0,0,0,0,0,0,0], [0,0,0,0,0,0,0]]
 )";
+
+std::string PivotingTable() {
+  std::string table = "pose,body,marker,x,y,z\n";
+  for (const char* pose : {"1", "2", "3"})
+    for (const char* row : {"base,b1,0,0,0",
+                            "base,b2,200,0,0",
+                            "base,b3,0,150,0",
+                            "tool,t1,0,0,50",
+                            "tool,t2,100,0,50",
+                            "tool,t3,0,100,50"})
+      table += std::string(pose) + "," + row + "\n";
+  return table;
+}
 
 Effect SampleOf(const EffectKind& kind) {
   Effect effect;
@@ -168,6 +208,7 @@ std::vector<std::string> ModelSamples() {
 
 std::vector<std::string> RequirementSamples() { return {kRequirement}; }
 std::vector<std::string> ColumnSamples() { return {kColumns}; }
+std::vector<std::string> PivotingSamples() { return {kPivotingMarkers, kPivotingPoses}; }
 
 std::vector<std::pair<std::string, std::string>> SampleTables() {
   return {{"poses.csv",
@@ -175,6 +216,7 @@ std::vector<std::pair<std::string, std::string>> SampleTables() {
            "1,0,0,200,0,0,0,0,20,1,0,0,0,1,40\n2,1,0,200,0,1,0,60,21,1,0,0,0,-1,41\n"},
           {"measured.csv",
            "pose,x,y,z,rx,ry,rz\n1,0,0,0.1,0,0,0\n2,0,0.01,0.1,0,0.1,0\n3,0.01,0,0.1,0.1,0,0\n"},
+          {"pivoting.csv", PivotingTable()},
           {"legs.csv",
            "pose,l1,l2,l3,l4,l5,l6\n1,200,200,200,200,200,200\n2,201,200,200,200,200,200\n"
            "3,200,202,200,200,200,200\n"}};
@@ -202,6 +244,7 @@ const std::vector<const char*> kBeyondSchemas = {
     "the name of one of the points",
     "found a second point",
     "expected one that 'markers' of the map has",
+    "expected a marker that bodies: lists",
     "a decimal comma between commas",
     "expected offset as a list of ",
     // What numbers must be together.
