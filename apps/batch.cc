@@ -5,8 +5,11 @@
 
 #include <chrono>
 #include <filesystem>
+#include <memory>
 
 #include "apps/batch_manifest.h"
+#include "apps/batch_report.h"
+#include "apps/batch_share.h"
 #include "apps/exit_status.h"
 #include "apps/flags.h"
 #include "apps/in_order.h"
@@ -15,6 +18,8 @@
 #include "apps/output_folder.h"
 #include "apps/progress.h"
 #include "apps/record_of.h"
+#include "apps/usage_error.h"
+#include "batch/chunk_files.h"
 #include "batch/folder_lock.h"
 #include "batch/run_chunks.h"
 #include "batch/store.h"
@@ -25,7 +30,7 @@ namespace hexcal {
 namespace {
 
 constexpr std::string_view kResultsMark = "study,idx,status,message";
-constexpr int kMostMessages = 10;
+constexpr int kMostGaps = 5;  // named in a message
 
 // Straight into the store, a chunk a transaction.
 class StoreSink : public ChunkSink {
@@ -46,109 +51,170 @@ class BatchRun {
   explicit BatchRun(const std::string& path)
       : path_(path),
         manifest_(ReadManifest(path)),
+        chunks_(*manifest_.batch.job),
         folder_(FLAGS_out,
                 "",
                 {{"results.csv", std::string(kResultsMark)}, {"run.json", std::string(kRunMark)}},
                 {path},
-                FLAGS_force) {
+                FLAGS_force),
+        files_(folder_.path(), manifest_.batch),
+        store_path_(folder_.PathOf("results.sqlite")) {
     MakeFolder(folder_.path());
   }
 
-  int Run() {
-    const auto start = std::chrono::steady_clock::now();
-    const PatientWork patient;
+  int RunAlone() {
     const FolderLock lock(folder_.path(), FolderLock::Kind::kAlone);
     if (!lock.IsHeld())
       throw OutputError(folder_.path() + ": another hexcal batch is at work in this folder");
-    RemoveLeftTemporaries(folder_.path());
     const std::unique_ptr<Store> store = OpenStore();
-    if (!Work(store.get())) return kInterrupted;
-    WriteCsv(folder_.PathOf("results.csv"), manifest_.batch, store.get());
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    folder_.Write(
-        "run.json",
-        RunJson(RecordOf(
-            "batch", std::vector<std::string>{path_}, seconds, ThreadsFor(FLAGS_threads))));
-    return Report(store.get());
+    Merge(store.get());
+    if (FLAGS_merge) RefuseGaps(store.get());
+    StoreSink sink(chunks_, store.get());
+    if (!Work({}, ThreadsFor(FLAGS_threads), &sink)) {
+      PrintError(
+          fmt::format("interrupted: {} of {} rows of results are kept; the same command "
+                      "does the rest",
+                      store->Count(),
+                      manifest_.batch.rows()));
+      return kInterrupted;
+    }
+    return Finish(store.get());
+  }
+
+  // Other processes do the other shares at the same time, or at another. The last of several ranks
+  // merges; a failed task is the merge's affair, for an engine stops all when one of them fails.
+  int RunShare(const ShareOfRun& share) {
+    {
+      const FolderLock lock(folder_.path(), FolderLock::Kind::kShared);
+      const std::unique_ptr<Store> store = StoreIfThere();
+      ChunkFileSink sink(manifest_.batch, &files_, store.get());
+      if (!Work(share.share, std::max(1, FLAGS_threads), &sink)) {
+        PrintError("interrupted: what was finished is kept; the same command does the rest");
+        return kInterrupted;
+      }
+    }
+    if (!share.is_rank) return kDone;
+    const FolderLock lock(folder_.path(), FolderLock::Kind::kAlone);
+    if (!lock.IsHeld() || !IsComplete()) return kDone;
+    if (!files_.AreThere() && share.share.index > 0) return kDone;  // all was there before
+    const std::unique_ptr<Store> store = OpenStore();
+    Merge(store.get());
+    return Finish(store.get());
   }
 
  private:
   // With --force what is there of another batch, or of another program, makes way.
   std::unique_ptr<Store> OpenStore() const {
-    const std::string path = folder_.PathOf("results.sqlite");
+    RemoveLeftTemporaries(folder_.path());
     std::unique_ptr<Store> store;
     try {
-      store = std::make_unique<Store>(path, manifest_.batch);
+      store = std::make_unique<Store>(store_path_, manifest_.batch);
     } catch (const InputError&) {
       if (!FLAGS_force) throw;
-      for (const char* end : {"", "-journal", "-wal", "-shm"}) std::filesystem::remove(path + end);
-      store = std::make_unique<Store>(path, manifest_.batch);
+      for (const char* end : {"", "-journal", "-wal", "-shm"})
+        std::filesystem::remove(store_path_ + end);
+      store = std::make_unique<Store>(store_path_, manifest_.batch);
     }
     if (FLAGS_retry) store->Remove(RowStatus::kFailed);
     return store;
   }
 
-  bool Work(Store* store) const {
-    Progress progress(manifest_.batch.name, FLAGS_quiet);
+  std::unique_ptr<Store> StoreIfThere() const {
+    if (!std::filesystem::exists(store_path_)) return nullptr;
+    return std::make_unique<Store>(store_path_, manifest_.batch);
+  }
+
+  // What shares of this batch have left.
+  void Merge(Store* store) const {
+    try {
+      const Merged merged = MergeChunks(files_, store);
+      if (FLAGS_merge && merged.duplicates > 0)
+        PrintWarning(fmt::format("{} rows of chunks were in results.sqlite already, alike",
+                                 merged.duplicates));
+    } catch (const InputError&) {
+      if (!FLAGS_force) throw;
+      files_.RemoveAll();
+    }
+  }
+
+  bool IsComplete() const {
+    const std::unique_ptr<Store> store = StoreIfThere();
+    ChunkFileSink sink(manifest_.batch, &files_, store.get());
+    for (std::int64_t chunk = 0; chunk < chunks_.count(); ++chunk)
+      if (!sink.Missing(chunk).empty()) return false;
+    return true;
+  }
+
+  void RefuseGaps(Store* store) const {
+    std::int64_t missing = 0;
+    std::string gaps;
+    int named = 0;
+    for (std::int64_t chunk = 0; chunk < chunks_.count(); ++chunk) {
+      const std::size_t size = store->Missing(chunks_[chunk]).size();
+      missing += static_cast<std::int64_t>(size);
+      if (size > 0 && ++named <= kMostGaps) gaps += fmt::format(" {}", chunk);
+    }
+    if (missing == 0) return;
+    throw InputError(FileLocation(folder_.path()),
+                     fmt::format("no results of {} of {} tasks (chunks{}{})",
+                                 missing,
+                                 manifest_.batch.job->tasks(),
+                                 gaps,
+                                 named > kMostGaps ? " and others" : ""),
+                     "those of all shares: the shares that are missing, or hexcal batch without "
+                     "--merge, do the rest");
+  }
+
+  bool Work(const Share& share, int threads, ChunkSink* sink) const {
+    Progress progress(manifest_.batch.name, FLAGS_quiet || share.index > 0);
     RunOptions options;
-    options.threads = ThreadsFor(FLAGS_threads);
+    options.threads = threads;
+    options.share = share;
     options.stop = &PatientWork::IsInterrupted;
     options.progress = [&progress](std::int64_t done, std::int64_t of) {
       progress.Update(done, of);
     };
-    StoreSink sink(Chunks(*manifest_.batch.job), store);
-    if (RunChunks(manifest_.batch, options, &sink)) return true;
-    PrintError(
-        fmt::format("interrupted: {} of {} rows of results are kept; the same command goes on",
-                    store->Count(),
-                    manifest_.batch.rows()));
-    return false;
+    return RunChunks(manifest_.batch, options, sink);
   }
 
-  int Report(Store* store) const {
-    const std::int64_t failed = store->Count(RowStatus::kFailed);
-    const std::int64_t untrusted = store->Count(RowStatus::kUntrusted);
-    if (failed > 0) PrintFailures(store, failed);
-    if (!FLAGS_quiet) Print(store->Count(), untrusted, failed);
-    if (failed > 0) return kSomeFailed;
-    return untrusted > 0 && !manifest_.is_study ? kNotTrusted : kDone;
+  int Finish(Store* store) {
+    WriteCsv(folder_.PathOf("results.csv"), manifest_.batch, store);
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    folder_.Write(
+        "run.json",
+        RunJson(RecordOf(
+            "batch", std::vector<std::string>{path_}, seconds, ThreadsFor(FLAGS_threads))));
+    files_.RemoveAll();
+    return ReportBatch(manifest_, folder_.path(), store);
   }
 
-  void PrintFailures(Store* store, std::int64_t failed) const {
-    for (const std::string& message : store->Messages(RowStatus::kFailed, kMostMessages))
-      PrintError(message);
-    const std::string more = failed > kMostMessages ? ", the others are in results.csv" : "";
-    PrintError(fmt::format("{} of {} failed{}", failed, manifest_.batch.rows(), more));
-  }
-
-  void Print(std::int64_t rows, std::int64_t untrusted, std::int64_t failed) const {
-    Progress::ClearVisible();
-    if (FLAGS_json)
-      fmt::print(
-          R"({{"format": "hexcal/batch-summary/1", "name": "{}", "rows": {}, "untrusted": {}, "failed": {}}})"
-          "\n",
-          manifest_.batch.name,
-          rows,
-          untrusted,
-          failed);
-    else
-      fmt::print(
-          "{}\n  done           {}\n  untrusted      {}\n  failed         {}\n  written to     "
-          "{}\n",
-          manifest_.batch.name,
-          rows - untrusted - failed,
-          untrusted,
-          failed,
-          folder_.path());
-  }
-
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::string path_;
   Manifest manifest_;
+  Chunks chunks_;
   OutputFolder folder_;
+  ChunkFiles files_;
+  std::string store_path_;
 };
 
-int RunBatch(const std::vector<std::string>& files) { return BatchRun(files[0]).Run(); }
+void RefuseTogether(bool is_share) {
+  if (FLAGS_merge && !FLAGS_task.empty())
+    throw UsageError("batch: --merge does not go with --task");
+  if (is_share && (FLAGS_retry || FLAGS_force))
+    throw UsageError(
+        "batch: --retry and --force would undo what other shares do; run them without --task and "
+        "mpirun");
+}
+
+int RunBatch(const std::vector<std::string>& files) {
+  const std::optional<ShareOfRun> share =
+      FLAGS_merge ? std::nullopt : ShareOfThisProcess(FLAGS_task);
+  RefuseTogether(share.has_value());
+  const PatientWork patient;
+  BatchRun run(files[0]);
+  return share ? run.RunShare(*share) : run.RunAlone();
+}
 
 }  // namespace
 
@@ -163,11 +229,14 @@ Command BatchCommand() {
       "missing in its model, and writes a row of results of each to results.csv and "
       "results.sqlite in DIR. A bad dataset does not keep the others from being done (exit status "
       "6). Interrupted or killed, it keeps what was finished; the same command does the rest. "
-      "The results do not depend on the number of threads.",
+      "Under mpirun, each process does a share and the last merges; --task and --merge are for "
+      "the job arrays of Slurm and the like. The results depend on none of this.",
       {{"out", true, "DIR", "The results go to DIR."},
+       {"task"},
+       {"merge"},
        {"retry"},
        {"config"},
-       {"threads"},
+       {"threads", false, {}, "Tasks at once; a share does one after another without it."},
        {"json", false, {}, "Print the counts as JSON instead."},
        {"quiet"},
        {"force",

@@ -168,6 +168,12 @@ DEFINE_string(world_frame, "world", "What the others call the frame of the base'
 DEFINE_string(base_frame, "base", "What they call the base of the robot.");
 DEFINE_string(platform_frame, "platform", "What they call its platform.");
 DEFINE_string(tool_frame, "tool", "What they call the frame of the tool's markers.");
+DEFINE_string(task,
+              "",
+              "Do the K-th of N shares only, K from 1, and leave its results in DIR/chunks.");
+DEFINE_bool(merge,
+            false,
+            "Put the results of all shares together; refused where some are missing.");
 DEFINE_bool(retry, false, "Work again on what failed, say because its file was mended.");
 DEFINE_int32(threads, 0, "Threads to use. The results do not depend on it.");
 DEFINE_bool(report, false, "Write report.html, too: the result with pictures, for the browser.");
@@ -277,6 +283,8 @@ std::vector<FlagSpec> MakeSpecs() {
       {"platform_frame", kNames, "NAME", ""},
       {"tool_frame", kNames, "NAME", ""},
       {"config", kRunning, "FILE.yaml", ""},
+      {"task", kRunning, "K/N", ""},
+      {"merge", kRunning, "", ""},
       {"retry", kRunning, "", ""},
       {"threads", kRunning, "N", "all cores", {}, 1, 1024},
   };

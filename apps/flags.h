@@ -68,6 +68,8 @@ DECLARE_string(settings);
 DECLARE_string(requirement);
 DECLARE_string(previous);
 DECLARE_bool(gate);
+DECLARE_string(task);
+DECLARE_bool(merge);
 DECLARE_bool(retry);
 DECLARE_int32(threads);
 DECLARE_bool(report);

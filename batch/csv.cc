@@ -28,7 +28,8 @@ Cell Stored(const Cell& cell) {
     return plain.empty() ? Cell() : Cell(plain);
   }
   const auto* number = std::get_if<double>(&cell);
-  return number != nullptr && std::isnan(*number) ? Cell() : cell;
+  if (number == nullptr) return cell;
+  return std::isnan(*number) ? Cell() : Cell(*number + 0.0);  // SQLite knows no -0
 }
 
 bool IsUtf8(const std::string& text) {

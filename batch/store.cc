@@ -40,14 +40,16 @@ struct Binder {
 
 }  // namespace
 
-Store::Store(const std::string& path, const Batch& batch)
+Store::Store(const std::string& path, const Batch& batch, Database::Access access)
     : study_(batch.name),
+      digest_(batch.digest),
       rows_per_task_(batch.job->outcomes_per_task()),
       columns_(AllColumns(*batch.job)) {
   const std::string schema = SchemaOf(columns_);
   const DatabaseKind kind = {kStoreMark, kVersion, "the results of hexcal batch", schema};
-  database_ = std::make_unique<Database>(path, kind, Database::Access::kWrite);
-  RequireSameBatch(batch);
+  database_ = std::make_unique<Database>(path, kind, access);
+  if (access == Database::Access::kWrite) Describe(batch);
+  RequireSameBatch();
   std::string places = "?, ?";
   for (std::size_t i = 0; i < columns_.size(); ++i) places += ", ?";
   insert_ = std::make_unique<Statement>(
@@ -62,23 +64,26 @@ Store::Store(const std::string& path, const Batch& batch)
 
 Store::~Store() = default;
 
-void Store::RequireSameBatch(const Batch& batch) {
+// In a new file.
+void Store::Describe(const Batch& batch) {
   Transaction transaction(database_.get());
+  Statement insert(database_.get(),
+                   "INSERT INTO batch SELECT ?, ?, ? WHERE NOT EXISTS (SELECT * FROM batch)");
+  insert.Bind(1, study_).Bind(2, digest_).Bind(3, batch.rows()).Step();
+  transaction.Commit();
+}
+
+void Store::RequireSameBatch() {
   Statement found(database_.get(), "SELECT study, digest FROM batch");
-  if (!found.Step()) {
-    Statement insert(database_.get(), "INSERT INTO batch VALUES (?, ?, ?)");
-    insert.Bind(1, study_).Bind(2, batch.digest).Bind(3, batch.rows()).Step();
-    return transaction.Commit();
-  }
-  const std::string study = found.Text(0);
-  if (study != study_ || found.Text(1) != batch.digest)
-    throw InputError(
-        FileLocation(database_->path()),
-        study == study_ ? fmt::format("results of another version of '{}'", study)
-                        : fmt::format("results of '{}'", study),
-        fmt::format("those of '{}': the manifest, a file that it names, or hexcal has changed "
-                    "(--force begins anew, another --out keeps both)",
-                    study_));
+  const std::string study = found.Step() ? found.Text(0) : "";
+  if (study == study_ && found.Text(1) == digest_) return;
+  throw InputError(
+      FileLocation(database_->path()),
+      study == study_ ? fmt::format("results of another version of '{}'", study)
+                      : fmt::format("results of '{}'", study),
+      fmt::format("those of '{}': the manifest, a file that it names, or hexcal has changed "
+                  "(--force begins anew, another --out keeps both)",
+                  study_));
 }
 
 std::vector<std::int64_t> Store::Missing(const Chunks::Range& tasks) {

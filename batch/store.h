@@ -19,9 +19,11 @@ inline constexpr std::string_view kStoreMark = "hxcb";  // in the file's first b
 // `batch`, whose one row says what they are of. For one thread at a time.
 class Store {
  public:
-  // Makes the file where there is none. InputError for a file that is not of hexcal batch, and for
-  // the results of another batch.
-  Store(const std::string& path, const Batch& batch);
+  // Makes the file where there is none, if it may write. InputError for a file that is not of
+  // hexcal batch, and for the results of another batch.
+  Store(const std::string& path,
+        const Batch& batch,
+        Database::Access access = Database::Access::kWrite);
   ~Store();
 
   // The tasks of this range that have no results yet.
@@ -39,10 +41,11 @@ class Store {
   void ForEach(const std::function<void(const Row&)>& use);
 
  private:
-  void RequireSameBatch(const Batch& batch);
+  void Describe(const Batch& batch);
+  void RequireSameBatch();
   Row Read(const Statement& statement) const;
 
-  std::string study_;
+  std::string study_, digest_;
   int rows_per_task_;
   std::vector<Column> columns_;
   std::unique_ptr<Database> database_;
