@@ -64,9 +64,21 @@ AuditIdentity IdentityOf(const RunRecord& record, const std::string& result) {
   return identity;
 }
 
-std::vector<std::string> AllInputs(const Dataset& dataset) {
+Requirements OpenRequirements(const std::string& path, const Dataset& dataset) {
+  Requirements requirements = ReadRequirements(path);
+  for (const NamedPoint& point : requirements.points)
+    if (point.pivot) RequireSameTool(*point.pivot, dataset);
+  return requirements;
+}
+
+std::vector<std::string> AllInputs(const Dataset& dataset,
+                                   const std::optional<Requirements>& requirements) {
   std::vector<std::string> files = InputFiles(dataset, "");
-  if (!FLAGS_requirement.empty()) files.push_back(FLAGS_requirement);
+  if (requirements) {
+    files.push_back(FLAGS_requirement);
+    for (const NamedPoint& point : requirements->points)
+      if (point.pivot) files.push_back(point.pivot->path);
+  }
   if (!FLAGS_previous.empty()) files.push_back(FLAGS_previous);
   return files;
 }
@@ -104,7 +116,7 @@ int RunAudit(const std::vector<std::string>& files) {
   const Dataset dataset = OpenDataset(files[0], true);
   IsByMarkers(dataset, CalibrateOptionsFromFlags());  // wrong usage shows before anything is read
   std::optional<Requirements> requirements;
-  if (!FLAGS_requirement.empty()) requirements = ReadRequirements(FLAGS_requirement);
+  if (!FLAGS_requirement.empty()) requirements = OpenRequirements(FLAGS_requirement, dataset);
   std::optional<EarlierResult> earlier;
   if (!FLAGS_previous.empty()) earlier = ReadEarlierResult(FLAGS_previous);
   OutputFolder folder(FLAGS_out,
@@ -114,13 +126,13 @@ int RunAudit(const std::vector<std::string>& files) {
                        {"model.yaml", std::string(kModelMark)},
                        {"run.json", std::string(kRunMark)},
                        {"report.html", HtmlPage::Mark("audit")}},
-                      AllInputs(dataset),
+                      AllInputs(dataset, requirements),
                       FLAGS_force);
   const Audit audit = AuditDataset(dataset, requirements, earlier);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunRecord record = RecordOf("audit", dataset, seconds, ThreadsFor(FLAGS_threads));
-  record.inputs = AllInputs(dataset);
+  record.inputs = AllInputs(dataset, requirements);
   const std::string result = ResultJson(audit.header, audit.estimate);
   const AuditIdentity identity = IdentityOf(record, result);
   folder.Write("model.yaml", WriteMachine(MachineOf(dataset, audit.estimate)));

@@ -88,10 +88,10 @@ int RunPivot(const std::vector<std::string>& files) {
   RunRecord record = RecordOf("pivot", dataset, seconds, 1);
   record.inputs = inputs;
   folder.Write("run.json", RunJson(record));
-  folder.Write("pivot.json", PivotJson(dataset.name, result));
+  folder.Write("pivot.json", PivotJson(dataset, result));
   PrintWarnings(dataset.name, result.warnings);
   if (FLAGS_json && !FLAGS_quiet)
-    fmt::print("{}\n", PivotJsonLine(dataset.name, result));
+    fmt::print("{}\n", PivotJsonLine(dataset, result));
   else if (!FLAGS_quiet)
     fmt::print("{}  {:<15}{}\n\n", PivotTable(dataset.name, result), "written to", folder.path());
   return result.IsTrustworthy() ? kDone : kNotTrusted;

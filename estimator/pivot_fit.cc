@@ -115,8 +115,9 @@ class GaussHelmert {
     }
     const auto p = static_cast<int>(free_.cols());
     fit_.degrees_of_freedom = 3 * count - p;
-    fit_.covariance =
+    const Matrix6d covariance =
         free_ * normal.ldlt().solve(Eigen::MatrixXd::Identity(p, p)) * free_.transpose();
+    fit_.covariance = 0.5 * (covariance + covariance.transpose());  // to the last bit
     for (PivotFit::Row& row : fit_.rows)
       row.prediction = row.jacobian * fit_.covariance * row.jacobian.transpose();
   }

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+#include "geometry/linear_algebra.h"
+
 namespace hexcal {
 namespace {
 
@@ -18,6 +20,15 @@ Vector6d Draw(const ErrorSource& source, std::mt19937_64* rng) {
   // of variance one
   std::uniform_real_distribution<double> uniform(-std::sqrt(3.0), std::sqrt(3.0));
   Vector6d step;
+  if (source.covariance_in_tool) {
+    // Symmetric and not negative, but perhaps of less than full rank: by its eigenvectors.
+    const Eigenvalues eigen = DecomposeSymmetric(*source.covariance_in_tool);
+    step.setZero();
+    for (int i = 0; i < 3; ++i)
+      step.head<3>() +=
+          std::sqrt(std::max(eigen.values[i], 0.0)) * normal(*rng) * eigen.vectors.col(i);
+    return step;
+  }
   for (int i = 0; i < 6; ++i)
     step[i] = (i < 3 ? source.position : source.orientation) *
               (source.spread == Spread1d::kNormal ? normal(*rng) : uniform(*rng));
@@ -27,19 +38,21 @@ Vector6d Draw(const ErrorSource& source, std::mt19937_64* rng) {
 // Where the point is, had these small motions been.
 struct Motion {
   Vector6d platform = Vector6d::Zero(), tool = Vector6d::Zero(), world = Vector6d::Zero();
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d point = Eigen::Vector3d::Zero(), point_in_tool = Eigen::Vector3d::Zero();
 
   void Add(SourceSite site, const Vector6d& step) {
     if (site == SourceSite::kPlatform) platform += step;
     if (site == SourceSite::kTool) tool += step;
     if (site == SourceSite::kWorld) world += step;
     if (site == SourceSite::kPoint) point += step.head<3>();
+    if (site == SourceSite::kPointInTool) point_in_tool += step.head<3>();
   }
   Eigen::Vector3d Moved(const BaseAndTool& mounts,
                         const Pose3d& pose,
                         const Eigen::Vector3d& p) const {
-    return Plus(Pose3d{}, world) * (mounts.world_from_base * Plus(pose, platform) *
-                                    Plus(mounts.platform_from_tool, tool) * p) +
+    return Plus(Pose3d{}, world) *
+               (mounts.world_from_base * Plus(pose, platform) *
+                Plus(mounts.platform_from_tool, tool) * Eigen::Vector3d(p + point_in_tool)) +
            point;
   }
 };

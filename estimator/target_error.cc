@@ -17,6 +17,10 @@ constexpr double kUpper = 0.975;  // of Intervals' half widths
 constexpr double kMany = 1e7;
 
 Eigen::Matrix3d Carried(const Matrix36d& jacobian, const ErrorSource& source) {
+  if (source.covariance_in_tool) {
+    const Eigen::Matrix3d turn = jacobian.leftCols<3>();
+    return turn * *source.covariance_in_tool * turn.transpose();
+  }
   Vector6d variance;
   variance << Eigen::Vector3d::Constant(source.position * source.position),
       Eigen::Vector3d::Constant(source.orientation * source.orientation);
@@ -99,6 +103,9 @@ TargetCovariance TargetError::At(const Pose3d& base_from_platform,
         break;
       case SourceSite::kPoint:
         carry.leftCols<3>().setIdentity();
+        break;
+      case SourceSite::kPointInTool:
+        carry.leftCols<3>() = world_from_tool.rotation.toRotationMatrix();
         break;
     }
     target.shares.push_back(Carried(carry, source));

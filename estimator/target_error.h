@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,9 @@ namespace hexcal {
 
 // Where a source of error acts: as a small motion of the platform in the base (right of T_A^B), of
 // the tool on the platform (right of T_T^A), of the world in which the target is known (left of
-// T_T^W, about the origin of W), or as a shift of the point itself.
-enum class SourceSite { kPlatform, kTool, kWorld, kPoint };
+// T_T^W, about the origin of W), as a shift of the point itself, or of
+// where the point is on the tool (along the axes of frame T).
+enum class SourceSite { kPlatform, kTool, kWorld, kPoint, kPointInTool };
 
 // How the error is spread, for drawing it; its covariance is the same.
 enum class Spread1d { kNormal, kUniform };
@@ -22,9 +24,11 @@ struct ErrorSource {
   std::string name;
   SourceSite site = SourceSite::kPlatform;
   double position = 0.0;     // 1-sigma of each coordinate, m
-  double orientation = 0.0;  // 1-sigma about each axis, rad; none at kPoint
+  double orientation = 0.0;  // 1-sigma about each axis, rad; none at kPoint and kPointInTool
   Spread1d spread = Spread1d::kNormal;
   double degrees_of_freedom = std::numeric_limits<double>::infinity();
+  // kPointInTool, normal: in place of position, m^2.
+  std::optional<Eigen::Matrix3d> covariance_in_tool = std::nullopt;
 };
 
 // The error of a point where the robot reports a pose: predicted minus true, axes of frame W, m^2.

@@ -15,40 +15,44 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kInside = "the path of a table in the folder of this file, relative to it";
-
 bool StartsWith(const fs::path& path, const fs::path& folder) {
   const auto [folder_end, unused] =
       std::mismatch(folder.begin(), folder.end(), path.begin(), path.end());
   return folder_end == folder.end();
 }
 
-std::string TablePath(const YamlNode& node, const ReadContext& context) {
-  const std::string text = ReadText(node, "the path of a table");
+}  // namespace
+
+std::string PathBeside(const YamlNode& node,
+                       const std::string& context_path,
+                       std::string_view what,
+                       std::string_view folder_name) {
+  const std::string text = ReadText(node, fmt::format("the path of {}", what));
+  const std::string inside =
+      fmt::format("the path of {} in the folder of this file, relative to it", what);
   const auto refuse = [&](std::string_view problem) {
     throw InputError(
-        node.where, fmt::format("the path {}, which {}", Quoted(text), problem), kInside);
+        node.where, fmt::format("the path {}, which {}", Quoted(text), problem), inside);
   };
   const fs::path relative(text);
-  if (text.empty()) throw InputError(node.where, "an empty path", kInside);
+  if (text.empty()) throw InputError(node.where, "an empty path", inside);
   if (relative.is_absolute()) refuse("is absolute");
-  if (*relative.lexically_normal().begin() == "..") refuse("leaves the dataset's folder");
+  if (*relative.lexically_normal().begin() == "..") refuse(fmt::format("leaves {}", folder_name));
 
-  const fs::path folder = fs::path(context.path).parent_path();
+  const fs::path folder = fs::path(context_path).parent_path();
   const fs::path path = folder / relative;
   std::error_code error;
   const fs::path real_path = fs::canonical(path, error);
   if (error)
     throw InputError(node.where,
                      fmt::format("no file {}", Quoted(text)),
-                     "an existing table (its path is relative to this file)");
+                     fmt::format("an existing {} (its path is relative to this file)",
+                                 what.substr(what.find(' ') + 1)));
   if (!StartsWith(real_path, fs::canonical(folder.empty() ? "." : folder)))
-    refuse("leaves the dataset's folder by a symbolic link");
+    refuse(fmt::format("leaves {} by a symbolic link", folder_name));
   if (!fs::is_regular_file(real_path, error)) refuse("is not a file");
   return path.string();
 }
-
-}  // namespace
 
 TableReader OpenTable(const MapReader& mapping, std::string_view what, const ReadContext& context) {
   const YamlNode* file = mapping.Optional("file");
@@ -59,7 +63,8 @@ TableReader OpenTable(const MapReader& mapping, std::string_view what, const Rea
         mapping.where(), fmt::format("neither file: nor rows: in {}", what), kOneOfThem);
   if (file != nullptr && rows != nullptr)
     throw InputError(rows->where, fmt::format("both file: and rows: in {}", what), kOneOfThem);
-  return file != nullptr ? TableReader::FromFile(TablePath(*file, context))
+  return file != nullptr ? TableReader::FromFile(
+                               PathBeside(*file, context.path, "a table", "the dataset's folder"))
                          : TableReader::FromRows(*rows);
 }
 

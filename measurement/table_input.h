@@ -22,6 +22,13 @@ struct ReadContext {
 // the dataset's folder and may not lead out of it, by symbolic links neither.
 TableReader OpenTable(const MapReader& mapping, std::string_view what, const ReadContext& context);
 
+// The path that a YAML file at context_path gives for another file of its folder, as OpenTable
+// takes it. what: "a table"; folder: "the dataset's folder".
+std::string PathBeside(const YamlNode& node,
+                       const std::string& context_path,
+                       std::string_view what,
+                       std::string_view folder);
+
 // Refuses a header that lacks a required column, or has one that is not known (naming the nearest
 // known one). expected: the columns in words.
 void CheckColumns(const TableReader& table,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "estimator/quantiles.h"
@@ -145,7 +146,13 @@ PointAt AtPlace(const TargetError& error, const NamedPoint& point, const Place& 
   return {place, at.Rms(), at.Quantile(kProbability)};
 }
 
-std::vector<BudgetRow> BudgetOf(const Audit& audit, const TargetCovariance& at) {
+std::string FileName(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+std::vector<BudgetRow> BudgetOf(const Audit& audit,
+                                const NamedPoint& point,
+                                const TargetCovariance& at) {
   std::vector<BudgetRow> rows;
   const double total = at.total.trace();
   const auto add = [&](const std::string& name,
@@ -171,10 +178,10 @@ std::vector<BudgetRow> BudgetOf(const Audit& audit, const TargetCovariance& at) 
   for (const StatedSource& source : stated.sources)
     add(source.source.name, source.origin, 'B', at.shares[i++], source.source.degrees_of_freedom);
   add("the point in frame T",
-      "its standard_deviation",
-      'B',
+      point.pivot ? "pivoting, " + FileName(point.pivot->path) : "its standard_deviation",
+      point.pivot ? 'A' : 'B',
       at.shares[i],
-      std::numeric_limits<double>::infinity());
+      point.Source().degrees_of_freedom);
   return rows;
 }
 
@@ -190,7 +197,7 @@ PointReport ReportPoint(const Audit& audit,
   report.worst =
       AtPlace(error, point, WorstPlace(error, point.p_in_tool, places, kProbability).place);
   const Pose3d& pose = report.worst.place.base_from_platform;
-  report.budget = BudgetOf(audit, error.At(pose, point.p_in_tool));
+  report.budget = BudgetOf(audit, point, error.At(pose, point.p_in_tool));
   const PropagationCheck& propagation = audit.comparison.propagation;
   if (propagation.done)
     report.check = CheckTarget(audit.comparison.reference,
@@ -248,7 +255,7 @@ std::string_view NameOf(Compliance compliance) {
 
 std::vector<ErrorSource> SourcesOf(const Audit& audit, const NamedPoint& point) {
   std::vector<ErrorSource> sources = audit.sources;
-  sources.push_back({point.name, SourceSite::kPoint, point.standard_deviation});
+  sources.push_back(point.Source());
   return sources;
 }
 

@@ -11,6 +11,13 @@
 namespace hexcal {
 namespace {
 
+// Of each coordinate, mm.
+std::string DeviationText(const NamedPoint& point) {
+  if (!point.pivot) return fmt::format("{:.4f}", 1e3 * point.standard_deviation);
+  const Eigen::Vector3d sigma = 1e3 * point.pivot->covariance.diagonal().cwiseSqrt();
+  return fmt::format("{:.4f}, {:.4f}, {:.4f} (pivoting)", sigma.x(), sigma.y(), sigma.z());
+}
+
 Tone ToneOf(Compliance compliance) {
   if (compliance == Compliance::kPass) return Tone::kGood;
   return compliance == Compliance::kFail ? Tone::kBad : Tone::kWarn;
@@ -112,7 +119,7 @@ void AddMeasurand(const Audit& audit, HtmlPage* page) {
                            fmt::format("{:.4f}", 1e3 * point.p_in_tool.x()),
                            fmt::format("{:.4f}", 1e3 * point.p_in_tool.y()),
                            fmt::format("{:.4f}", 1e3 * point.p_in_tool.z()),
-                           fmt::format("{:.4f}", 1e3 * point.standard_deviation)});
+                           DeviationText(point)});
   page->Table(points);
 }
 

@@ -55,6 +55,21 @@ Json CheckObject(const TargetCheck& check) {
           {"agrees", check.agrees}};
 }
 
+// One for all coordinates, or of a pivoting one each.
+Json Deviations(const NamedPoint& point) {
+  if (!point.pivot) return point.standard_deviation;
+  return JsonList(point.pivot->covariance.diagonal().cwiseSqrt().eval());
+}
+
+Json PivotOf(const NamedPoint& point) {
+  if (!point.pivot) return {};
+  Json rows = Json::array();
+  for (int i = 0; i < 3; ++i) rows.push_back(JsonList(point.pivot->covariance.row(i)));
+  return {{"file", point.pivot->path},
+          {"covariance", rows},
+          {"degrees_of_freedom", Number(point.pivot->degrees_of_freedom)}};
+}
+
 Json Points(const Audit& audit) {
   Json list = Json::array();
   for (const PointReport& report : audit.points) {
@@ -68,7 +83,8 @@ Json Points(const Audit& audit) {
                         {"degrees_of_freedom", Number(row.degrees_of_freedom)}});
     list.push_back({{"name", report.point.name},
                     {"xyz", JsonList(report.point.p_in_tool)},
-                    {"standard_deviation", report.point.standard_deviation},
+                    {"standard_deviation", Deviations(report.point)},
+                    {"pivot", PivotOf(report.point)},
                     {"centre", AtObject(report.centre)},
                     {"worst", AtObject(report.worst)},
                     {"budget", budget},

@@ -76,10 +76,23 @@ Json Tilted(const PivotResult& result) {
   return list;
 }
 
-Json PivotObject(const std::string& dataset, const PivotResult& result) {
+// What frame T is, where that is known.
+Json ToolObject(const Measurement& measurement) {
+  if (measurement.kind != Measurement::Kind::kMarkers) return {};
+  const MarkerBody& body = measurement.bodies[static_cast<int>(BodyId::kTool)];
+  if (body.is_centroid)
+    return {{"markers", body.markers}, {"xyz", Json()}, {"x_axis", body.x_axis}};
+  Json points = Json::array();
+  for (Eigen::Index i = 0; i < body.p_in_body.cols(); ++i)
+    points.push_back(JsonList(body.p_in_body.col(i)));
+  return {{"markers", body.markers}, {"xyz", points}};
+}
+
+Json PivotObject(const Dataset& dataset, const PivotResult& result) {
   Json json;
   json["format"] = "hexcal/pivot/1";
-  json["dataset"] = dataset;
+  json["dataset"] = dataset.name;
+  json["tool"] = ToolObject(*dataset.measurement);
   json["converged"] = result.converged;
   json["trustworthy"] = result.IsTrustworthy();
   json["tip"] = PointObject(result, result.x.tip_in_tool, 0);
@@ -117,11 +130,11 @@ Json PivotObject(const std::string& dataset, const PivotResult& result) {
 
 }  // namespace
 
-std::string PivotJson(const std::string& dataset, const PivotResult& result) {
+std::string PivotJson(const Dataset& dataset, const PivotResult& result) {
   return JsonText(PivotObject(dataset, result));
 }
 
-std::string PivotJsonLine(const std::string& dataset, const PivotResult& result) {
+std::string PivotJsonLine(const Dataset& dataset, const PivotResult& result) {
   return JsonLine(PivotObject(dataset, result));
 }
 

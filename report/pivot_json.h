@@ -8,7 +8,7 @@
 namespace hexcal {
 
 // pivot.json, format hexcal/pivot/1 (docs/pivot.md); the same on one line.
-std::string PivotJson(const std::string& dataset, const PivotResult& result);
-std::string PivotJsonLine(const std::string& dataset, const PivotResult& result);
+std::string PivotJson(const Dataset& dataset, const PivotResult& result);
+std::string PivotJsonLine(const Dataset& dataset, const PivotResult& result);
 
 }  // namespace hexcal

@@ -100,7 +100,7 @@ class Reader {
   }
 
   void ReadPoint(const YamlNode& node) {
-    const MapReader map(node, "a point", {"name", "xyz", "standard_deviation"});
+    const MapReader map(node, "a point", {"name", "xyz", "standard_deviation", "pivot"});
     NamedPoint point;
     point.name = ReadText(map.Required("name"), "the name of the point");
     for (const NamedPoint& other : result_.points)
@@ -108,6 +108,11 @@ class Reader {
         throw InputError(map.Required("name").where,
                          fmt::format("a second point '{}'", point.name),
                          "a name of its own for each");
+    if (const YamlNode* pivot = map.Optional("pivot")) {
+      ReadPivot(map, *pivot, &point);
+      result_.points.push_back(std::move(point));
+      return;
+    }
     const auto xyz = ReadNumbers(map.Required("xyz"), 3, "the point in frame T: [x, y, z]");
     point.p_in_tool = units_.length * Eigen::Vector3d(xyz[0], xyz[1], xyz[2]);
     if (!(point.p_in_tool.norm() < kLargest))
@@ -116,6 +121,16 @@ class Reader {
     if (const YamlNode* sigma = map.Optional("standard_deviation"))
       point.standard_deviation = units_.length * ReadSigma(*sigma, "the point");
     result_.points.push_back(std::move(point));
+  }
+
+  void ReadPivot(const MapReader& map, const YamlNode& pivot, NamedPoint* point) const {
+    for (const char* key : {"xyz", "standard_deviation"})
+      if (const YamlNode* other = map.Optional(key))
+        throw InputError(other->where,
+                         fmt::format("'{}' beside 'pivot'", key),
+                         "one of them: a pivoting says where the point is and how sure that is");
+    point->pivot = ReadPivotPoint(pivot, result_.path);
+    point->p_in_tool = point->pivot->p_in_tool;
   }
 
   void ReadWorkspace(const YamlNode& node) {
@@ -218,6 +233,14 @@ class Reader {
 };
 
 }  // namespace
+
+ErrorSource NamedPoint::Source() const {
+  if (!pivot) return {name, SourceSite::kPoint, standard_deviation};
+  ErrorSource source{name, SourceSite::kPointInTool};
+  source.degrees_of_freedom = pivot->degrees_of_freedom;
+  source.covariance_in_tool = pivot->covariance;
+  return source;
+}
 
 Requirements ReadRequirements(const std::string& path) { return Reader(path).Read(); }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "estimator/target_error.h"
+#include "report/pivot_point.h"
 
 namespace hexcal {
 
@@ -15,7 +16,10 @@ namespace hexcal {
 struct NamedPoint {
   std::string name;
   Eigen::Vector3d p_in_tool = Eigen::Vector3d::Zero();
-  double standard_deviation = 0.0;  // of each coordinate, m
+  double standard_deviation = 0.0;                 // of each coordinate, m; without pivot
+  std::optional<PivotPoint> pivot = std::nullopt;  // by pivoting: its covariance is there
+
+  ErrorSource Source() const;  // the error of the point itself
 };
 
 // What accuracy is asked for: the error of the point is not longer than limit with this

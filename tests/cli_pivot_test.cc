@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -224,6 +225,44 @@ TEST(CliPivot, LeavesForeignFilesAlone) {
   EXPECT_EQ(RunOn(folder, "probe.csv", {"--units=mm,deg"}).status, 5);
   EXPECT_EQ(folder.Read("out/probe/pivot.json"), "mine");
   EXPECT_EQ(RunOn(folder, "probe.csv", {"--units=mm,deg", "--force"}).status, 0);
+}
+
+// The tip goes into the audit of the machine that carries the tool.
+TEST(CliPivot, FeedsTheTipIntoTheAudit) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(
+      RunHexcal(
+          {{"pivot", kExample + "/pivoting.yaml", "--out=" + folder.Path(""), "--outliers=reject"}})
+          .status,
+      0);
+  folder.Write("pivot.json", folder.Read("tool-tip/pivot.json"));
+  folder.Write("requirement.yaml",
+               "format: hexcal/requirement/1\nunits: {length: mm, angle: deg}\n"
+               "points: [{name: tip, pivot: pivot.json}]\n"
+               "robot: {position: 0.005, orientation: 0.002, from: assumed}\n"
+               "requirements: [{name: drilling, point: tip, over: poses, limit: 0.5}]\n");
+  const ProgramResult run = RunHexcal({{"audit",
+                                        std::string(HEXCAL_EXAMPLES) + "/neurobot/dataset.yaml",
+                                        "--requirement=" + folder.Path("requirement.yaml"),
+                                        "--out=" + folder.Path(""),
+                                        "--draws=4000"}});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const Json audit = ReadJson(folder.Path("neurobot/audit.json"));
+  const Json tip = ReadJson(folder.Path("pivot.json"))["tip"];
+  const Json& point = audit["points"][0];
+  EXPECT_EQ(point["xyz"], tip["xyz"]);
+  EXPECT_EQ(point["pivot"]["covariance"], tip["covariance"]);
+  const Json& row = point["budget"].back();
+  EXPECT_EQ(row["source"], "the point in frame T");
+  EXPECT_EQ(row["from"], "pivoting, pivot.json");
+  EXPECT_EQ(row["type"], "A");
+  double trace = 0.0;
+  for (std::size_t k = 0; k < 3; ++k) trace += tip["covariance"][k][k].get<double>();
+  EXPECT_NEAR(row["rms"].get<double>(), std::sqrt(trace), 1e-12);
+  const Json& repeated = point["monte_carlo"];
+  EXPECT_NEAR(repeated["repeated_rms"].get<double>() / repeated["rms"].get<double>(), 1.0, 0.03);
+  EXPECT_EQ(audit["inputs"].back()["file"], folder.Path("pivot.json"));
+  EXPECT_THAT(folder.Read("neurobot/report.html"), HasSubstr("(pivoting)"));
 }
 
 }  // namespace

@@ -96,5 +96,83 @@ TEST_F(RequirementFile, IsRefusedWithThePlaceAndWhatWasExpected) {
   EXPECT_THAT(Refusal("degrees_of_freedom: 30", "degrees_of_freedom: 0"), HasSubstr("1"));
 }
 
+// What hexcal pivot writes, but for what the audit does not read.
+const std::string kPivot = R"({"format": "hexcal/pivot/1", "trustworthy": true,
+"tool": {"markers": ["a", "b", "c"], "xyz": [[0, 0, 0], [0.1, 0, 0], [0, 0.1, 0]]},
+"tip": {"xyz": [0.001, 0.002, 0.12], "covariance": [[4e-10, 0, 0], [0, 4e-10, 1e-10], [0, 1e-10, 9e-10]],
+"degrees_of_freedom_together": 50}}
+)";
+
+class PivotPointFile : public RequirementFile {
+ protected:
+  Requirements ReadWith(const std::string& pivot, const std::string& point = "pivot: pivot.json") {
+    folder.Write("pivot.json", pivot);
+    std::string text = kGood;
+    const std::string was = "xyz: [1, 2, 120], standard_deviation: 0.05";
+    text.replace(text.find(was), was.size(), point);
+    return Read(text);
+  }
+  std::string PivotRefusal(const std::string& part, const std::string& other) {
+    std::string pivot = kPivot;
+    const std::size_t at = pivot.find(part);
+    EXPECT_NE(at, std::string::npos) << part;
+    pivot.replace(at, part.size(), other);
+    return testing::InputErrorText([&] { ReadWith(pivot); });
+  }
+  Dataset DatasetWith(const Eigen::Matrix3d& markers) const {
+    Dataset dataset;
+    dataset.measurement = Measurement{};
+    dataset.measurement->kind = Measurement::Kind::kMarkers;
+    dataset.measurement->bodies[1].p_in_body = markers;
+    return dataset;
+  }
+};
+
+TEST_F(PivotPointFile, BringsThePointItsCovarianceAndDegreesOfFreedom) {
+  const NamedPoint point = ReadWith(kPivot).points.at(0);
+  EXPECT_EQ(point.p_in_tool, Eigen::Vector3d(0.001, 0.002, 0.12));
+  const ErrorSource source = point.Source();
+  EXPECT_EQ(source.site, SourceSite::kPointInTool);
+  EXPECT_EQ((*source.covariance_in_tool)(1, 2), 1e-10);
+  EXPECT_EQ((*source.covariance_in_tool)(2, 2), 9e-10);
+  EXPECT_EQ(source.degrees_of_freedom, 50.0);
+  EXPECT_EQ(source.position, 0.0);
+  EXPECT_EQ(ReadWith(kPivot).points.at(1).Source().site, SourceSite::kPoint);
+}
+
+TEST_F(PivotPointFile, RefusesWhatIsNoDeterminedTip) {
+  EXPECT_THAT(PivotRefusal("true", "false"),
+              AllOf(HasSubstr("pivot.json:1:"), HasSubstr("not determined")));
+  EXPECT_THAT(PivotRefusal("hexcal/pivot/1", "hexcal/result/1"), HasSubstr("'hexcal/pivot/1'"));
+  EXPECT_THAT(PivotRefusal("[0, 4e-10, 1e-10]", "[0, 4e-10, 2e-10]"), HasSubstr("no covariance"));
+  EXPECT_THAT(PivotRefusal("9e-10", "-9e-10"), HasSubstr("pivot.json:3:"));
+  EXPECT_THAT(PivotRefusal("9e-10", "null"), HasSubstr("pivot.json:3:"));
+  EXPECT_THAT(PivotRefusal("50", "0"), HasSubstr("degrees of freedom"));
+  EXPECT_THAT(PivotRefusal("0.12]", "1e9]"), HasSubstr("beyond any tool"));
+  EXPECT_THAT(PivotRefusal("\"tool\"", "\"tolo\""), HasSubstr("no key 'tool'"));
+  EXPECT_THAT(PivotRefusal("\"xyz\": [0.001", "\"xy\": [0.001"), HasSubstr("no key 'xyz'"));
+}
+
+TEST_F(PivotPointFile, MustLieBesideTheRequirementFileAndSayItAll) {
+  const auto refusal = [&](const std::string& point) {
+    return testing::InputErrorText([&] { ReadWith(kPivot, point); });
+  };
+  EXPECT_THAT(refusal("pivot: ../pivot.json"),
+              AllOf(HasSubstr("r.yaml:5:24"), HasSubstr("leaves")));
+  EXPECT_THAT(refusal("pivot: /etc/passwd"), HasSubstr("is absolute"));
+  EXPECT_THAT(refusal("pivot: none.json"), HasSubstr("no file 'none.json'"));
+  EXPECT_THAT(refusal("pivot: pivot.json, xyz: [1, 2, 3]"), HasSubstr("'xyz' beside 'pivot'"));
+}
+
+TEST_F(PivotPointFile, MustBeOfTheSameBody) {
+  const PivotPoint point = *ReadWith(kPivot).points.at(0).pivot;
+  Eigen::Matrix3d markers;
+  markers << 0.1, 0, 0, 0, 0, 0.1, 0, 0, 0;  // in another order
+  RequireSameTool(point, DatasetWith(markers));
+  markers(0, 0) = 0.101;
+  EXPECT_THAT(testing::InputErrorText([&] { RequireSameTool(point, DatasetWith(markers)); }),
+              AllOf(HasSubstr("r.yaml:5:24"), HasSubstr("other markers")));
+}
+
 }  // namespace
 }  // namespace hexcal

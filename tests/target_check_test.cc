@@ -65,6 +65,30 @@ TEST(TargetCheck, SeesWhatFirstOrderMisses) {
   EXPECT_LT(check.repeated_quantile, check.quantile);
 }
 
+// A tip that is known by pivoting: along one axis of the tool three times less well. Its share is
+// turned with the tool, and repetition finds it.
+TEST(TargetCheck, CarriesTheCovarianceOfAPointOfTheTool) {
+  const Scene scene = MakeScene(1e-6, 5e-6);
+  const Pose3d pose = scene.observations.items[3].base_from_platform;
+  Eigen::Matrix3d covariance;
+  covariance << 1.0, 0.3, 0.0, 0.3, 1.0, 0.2, 0.0, 0.2, 9.0;
+  ErrorSource tip{"tip", SourceSite::kPointInTool};
+  tip.covariance_in_tool = 1e-8 * covariance;
+  const TargetCheck check =
+      CheckTarget(scene.estimate, {tip}, scene.propagation, pose, kTip, 0.95, 1);
+  EXPECT_NEAR(check.rms, 1e-4 * std::sqrt(11.0), 1e-6);
+  EXPECT_NEAR(check.repeated_rms / check.rms, 1.0, 0.02);
+  EXPECT_NEAR(check.repeated_quantile / check.quantile, 1.0, 0.03);
+  EXPECT_TRUE(check.agrees);
+
+  const BaseAndTool& mounts = scene.estimate.mounts;
+  const Eigen::Matrix3d turn =
+      (mounts.world_from_base * pose * mounts.platform_from_tool).rotation.toRotationMatrix();
+  const TargetCovariance at = TargetError(scene.estimate, {tip}).At(pose, kTip);
+  const Eigen::Matrix3d back = turn.transpose() * at.shares[0] * turn;
+  EXPECT_LT((back - *tip.covariance_in_tool).norm(), 1e-20);
+}
+
 // Every source counts: without its motion the repetition would be shorter.
 TEST(TargetCheck, DrawsEverySource) {
   const Scene scene = MakeScene(1e-6, 5e-6);
