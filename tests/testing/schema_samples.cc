@@ -155,6 +155,19 @@ pose_map:
   coefficients: [[0,0,0,0,0,0,0], [0,0,0,0,0,0,0], [0,0,0,0,0,0,0], [0,0,0,0,0,0,0], [0,0,0,0,0,0,0], [0,0,0,0,0,0,0]]
 )";
 
+// A point by pivoting, and the part of a pivot.json that it is read from.
+constexpr const char* kPivotRequirement = R"(format: hexcal/requirement/1
+units: {length: mm, angle: deg}
+points: [{name: tip, pivot: pivot.json}]
+requirements: [{name: drilling, point: tip, limit: 0.5}]
+)";
+
+constexpr const char* kPivotFile =
+    R"({"format": "hexcal/pivot/1", "trustworthy": true, "tool": null,
+"tip": {"xyz": [0, 0, 0.1], "covariance": [[1e-9, 0, 0], [0, 1e-9, 0], [0, 0, 1e-9]],
+"degrees_of_freedom_together": null}}
+)";
+
 std::string PivotingTable() {
   std::string table = "pose,body,marker,x,y,z\n";
   for (const char* pose : {"1", "2", "3"})
@@ -206,7 +219,7 @@ std::vector<std::string> ModelSamples() {
   return samples;
 }
 
-std::vector<std::string> RequirementSamples() { return {kRequirement}; }
+std::vector<std::string> RequirementSamples() { return {kRequirement, kPivotRequirement}; }
 std::vector<std::string> ColumnSamples() { return {kColumns}; }
 std::vector<std::string> PivotingSamples() { return {kPivotingMarkers, kPivotingPoses}; }
 
@@ -217,6 +230,7 @@ std::vector<std::pair<std::string, std::string>> SampleTables() {
           {"measured.csv",
            "pose,x,y,z,rx,ry,rz\n1,0,0,0.1,0,0,0\n2,0,0.01,0.1,0,0.1,0\n3,0.01,0,0.1,0.1,0,0\n"},
           {"pivoting.csv", PivotingTable()},
+          {"pivot.json", kPivotFile},
           {"legs.csv",
            "pose,l1,l2,l3,l4,l5,l6\n1,200,200,200,200,200,200\n2,201,200,200,200,200,200\n"
            "3,200,202,200,200,200,200\n"}};
@@ -227,6 +241,7 @@ const std::vector<const char*> kBeyondSchemas = {
     "no file ",
     "which is not a file",
     "leaves the dataset's folder",
+    "leaves the requirement file's folder",
     "the unknown column ",
     "without a column in the table",
     "found the pose label ",
