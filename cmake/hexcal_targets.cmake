@@ -32,16 +32,19 @@ function(hexcal_library name)
   if(ARG_SOURCES)
     add_library(hexcal_${name} STATIC ${ARG_SOURCES})
     target_compile_features(hexcal_${name} PUBLIC cxx_std_17)
-    target_include_directories(hexcal_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+    target_include_directories(hexcal_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+        $<INSTALL_INTERFACE:${HEXCAL_HEADERS}>)
     target_link_libraries(hexcal_${name} PUBLIC ${ARG_LINKS} PRIVATE ${ARG_PRIVATE_LINKS})
     hexcal_own(hexcal_${name})
   else()
     add_library(hexcal_${name} INTERFACE)
     target_compile_features(hexcal_${name} INTERFACE cxx_std_17)
-    target_include_directories(hexcal_${name} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+    target_include_directories(hexcal_${name} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+        $<INSTALL_INTERFACE:${HEXCAL_HEADERS}>)
     target_link_libraries(hexcal_${name} INTERFACE ${ARG_LINKS})
   endif()
   add_library(hexcal::${name} ALIAS hexcal_${name})
+  set_target_properties(hexcal_${name} PROPERTIES EXPORT_NAME ${name})
 endfunction()
 
 # hexcal_test(pose_test LINKS hexcal::geometry): tests/pose_test.cc, its cases listed in ctest.
