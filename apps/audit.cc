@@ -11,6 +11,7 @@
 #include "apps/estimate_mounts.h"
 #include "apps/exit_status.h"
 #include "apps/flags.h"
+#include "apps/history_entry.h"
 #include "apps/in_order.h"
 #include "apps/message.h"
 #include "apps/output_folder.h"
@@ -48,7 +49,8 @@ CompareOptions ComparisonOf(const Dataset& dataset, const CalibrateOptions& opti
 
 // Everything but the settings that say where results go and how they are shown.
 bool Matters(std::string_view setting) {
-  for (const char* other : {"out", "config", "threads", "json", "quiet", "force", "gate"})
+  for (const char* other :
+       {"out", "config", "threads", "json", "quiet", "force", "gate", "history", "operator"})
     if (setting == other) return false;
   return true;
 }
@@ -128,18 +130,23 @@ int RunAudit(const std::vector<std::string>& files) {
                        {"report.html", HtmlPage::Mark("audit")}},
                       AllInputs(dataset, requirements),
                       FLAGS_force);
+  CheckHistoryFlag();
   const Audit audit = AuditDataset(dataset, requirements, earlier);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunRecord record = RecordOf("audit", dataset, seconds, ThreadsFor(FLAGS_threads));
   record.inputs = AllInputs(dataset, requirements);
   const std::string result = ResultJson(audit.header, audit.estimate);
-  const AuditIdentity identity = IdentityOf(record, result);
+  AuditIdentity identity = IdentityOf(record, result);
+  HistoryEntry entry("audit", dataset, record, audit.header, audit.estimate, {}, result);
+  record.history = entry.mark();
+  identity.log = entry.log();
   folder.Write("model.yaml", WriteMachine(MachineOf(dataset, audit.estimate)));
   folder.Write("run.json", RunJson(record));
   folder.Write("result.json", result);
   folder.Write("report.html", AuditHtml(identity, record, audit));
   folder.Write("audit.json", AuditJson(identity, audit));
+  entry.Append();
   PrintNewWarnings(dataset, audit.estimate.warnings, "audit.json");
   if (FLAGS_json && !FLAGS_quiet)
     fmt::print("{}\n", AuditJsonLine(identity, audit));
@@ -173,6 +180,8 @@ Command AuditCommand() {
        {"requirement"},
        {"previous"},
        {"gate"},
+       {"history"},
+       {"operator"},
        {"solver"},
        {"residual"},
        {"start"},

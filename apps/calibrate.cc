@@ -12,6 +12,7 @@
 #include "apps/estimate_mounts.h"
 #include "apps/exit_status.h"
 #include "apps/flags.h"
+#include "apps/history_entry.h"
 #include "apps/in_order.h"
 #include "apps/message.h"
 #include "apps/output_folder.h"
@@ -59,6 +60,7 @@ class CalibrateRun {
 
   int Run() {
     OpenAll();
+    CheckHistoryFlag();
     {
       Progress progress("calibrating", FLAGS_quiet);
       // One dataset has the threads to itself; several share them.
@@ -144,7 +146,12 @@ class CalibrateRun {
     const ResultHeader header =
         HeaderOf(job->dataset.name, options_, IsByMarkersHere(job->dataset));
     const Machine machine = outcome.grown ? *outcome.grown : MachineOf(job->dataset, estimate);
-    const RunRecord record = RecordOf("calibrate", job->dataset, outcome.seconds, threads_);
+    const std::string result = ResultJson(header, estimate, machine.effects);
+    RunRecord record = RecordOf("calibrate", job->dataset, outcome.seconds, threads_);
+    record.inputs = InputFiles(job->dataset, FLAGS_model);
+    HistoryEntry entry(
+        "calibrate", job->dataset, record, header, estimate, machine.effects, result);
+    record.history = entry.mark();
     job->folder.Write("model.yaml", WriteMachine(machine));
     job->folder.Write("run.json", RunJson(record));
     if (FLAGS_report)
@@ -154,7 +161,8 @@ class CalibrateRun {
                         record,
                         estimate,
                         MakeScene(job->dataset, MakeObservations(job->dataset), estimate)));
-    job->folder.Write("result.json", ResultJson(header, estimate, machine.effects));
+    job->folder.Write("result.json", result);
+    entry.Append();
     if (!estimate.IsTrustworthy()) ++untrusted_;
     PrintNewWarnings(job->dataset, estimate.warnings, "result.json");
     Print(*job, header, estimate, machine.effects);
@@ -200,6 +208,8 @@ Command CalibrateCommand() {
       "the solver did not converge.",
       {{"out", true, "DIR", "The results of a dataset go to DIR/<name>/."},
        {"report"},
+       {"history"},
+       {"operator"},
        {"model", false, {}, "A model whose effects are estimated along with base and tool."},
        {"solver"},
        {"residual"},

@@ -9,6 +9,7 @@
 #include "apps/compare.h"
 #include "apps/discover.h"
 #include "apps/export.h"
+#include "apps/history.h"
 #include "apps/import.h"
 #include "apps/pivot.h"
 #include "apps/plan.h"
@@ -31,6 +32,7 @@ const std::vector<Command>& Commands() {
                                                 CompareCommand(),
                                                 DiscoverCommand(),
                                                 ExportCommand(),
+                                                HistoryCommand(),
                                                 ImportCommand(),
                                                 PivotCommand(),
                                                 PlanCommand(),

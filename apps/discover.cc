@@ -8,6 +8,7 @@
 #include "apps/dataset_files.h"
 #include "apps/exit_status.h"
 #include "apps/flags.h"
+#include "apps/history_entry.h"
 #include "apps/in_order.h"
 #include "apps/message.h"
 #include "apps/output_folder.h"
@@ -54,17 +55,23 @@ int RunDiscover(const std::vector<std::string>& files) {
                        {"report.html", HtmlPage::Mark("discover")}},
                       InputFiles(dataset, ""),
                       FLAGS_force);
+  CheckHistoryFlag();
   const DiscoverOptions options = DiscoverOptionsFromFlags();
   const Discovery discovery = DiscoverWithBars(dataset, options);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const RunRecord record = RecordOf("discover", dataset, seconds, options.threads);
+  RunRecord record = RecordOf("discover", dataset, seconds, options.threads);
+  const std::vector<Effect> effects = EffectsOf(discovery);
+  const std::string result = ResultJson(HeaderOfModel(dataset), discovery.estimate, effects);
+  HistoryEntry entry(
+      "discover", dataset, record, HeaderOfModel(dataset), discovery.estimate, effects, result);
+  record.history = entry.mark();
   folder.Write("model.yaml", WriteMachine(discovery.machine));
   folder.Write("run.json", RunJson(record));
-  folder.Write("result.json",
-               ResultJson(HeaderOfModel(dataset), discovery.estimate, EffectsOf(discovery)));
+  folder.Write("result.json", result);
   folder.Write("report.html", DiscoveryHtml(dataset.name, record, discovery));
   folder.Write("discovery.json", DiscoveryJson(dataset.name, options, discovery));
+  entry.Append();
   PrintNewWarnings(dataset, discovery.warnings, "discovery.json");
   if (FLAGS_json && !FLAGS_quiet)
     fmt::print("{}\n", DiscoveryJsonLine(dataset.name, options, discovery));
@@ -106,6 +113,8 @@ Command DiscoverCommand() {
       "status; 4: the 12 parameters cannot be "
       "trusted.",
       {{"out", true, "DIR", "The results go to DIR/<name>/."},
+       {"history"},
+       {"operator"},
        {"alpha"},
        {"bootstraps"},
        {"noise_position"},

@@ -158,6 +158,20 @@ DEFINE_string(previous,
               "The result.json of an earlier calibration: what has changed since, against its "
               "uncertainty.");
 DEFINE_bool(gate, false, "Exit status 7 where a requirement fails. Goes with --requirement.");
+DEFINE_string(history,
+              "",
+              "Append the calibration to this history, a new one if there is none: what went in, "
+              "what came out, who and when (docs/history.md).");
+DEFINE_string(operator, "", "Who calibrates, as the history shall name them.");
+DEFINE_string(head,
+              "",
+              "verify: a hash that a report printed; the record that has it, and so all before it, "
+              "must be there.");
+DEFINE_int32(since, 1, "trend: from this record on; a new chart after a change that is known.");
+DEFINE_int32(baseline,
+             1,
+             "trend: the first so many records of a dataset count as in control, whatever they "
+             "say.");
 DEFINE_string(settings,
               "",
               "What columns of robot_poses may be set to, in their declared units: "
@@ -191,6 +205,7 @@ constexpr std::string_view kLinearized = "The linearized solver";
 constexpr std::string_view kComparison = "Comparison";
 constexpr std::string_view kAccuracy = "Accuracy";
 constexpr std::string_view kDiscovery = "Discovery";
+constexpr std::string_view kHistory = "History";
 constexpr std::string_view kFiles = "What the files do not say";
 constexpr std::string_view kPlanning = "Planning";
 constexpr std::string_view kNames = "What others call the frames";
@@ -201,6 +216,8 @@ std::vector<FlagSpec> MakeSpecs() {
       {"out", kResults, "PATH", ""},
       {"dataset", kResults, "FILE", ""},
       {"report", kResults, "", ""},
+      {"history", kResults, "FILE.sqlite", ""},
+      {"operator", kResults, "TEXT", "", {}, 0.0, 0.0, false, "history"},
       {"json", kResults, "", ""},
       {"quiet", kResults, "", ""},
       {"force", kResults, "", ""},
@@ -242,6 +259,9 @@ std::vector<FlagSpec> MakeSpecs() {
       {"gate", kAccuracy, "", ""},
       {"alpha", kDiscovery, "P", "", {}, 1e-4, 0.2},
       {"bootstraps", kDiscovery, "N", "", {}, 99, 100000},
+      {"head", kHistory, "HASH", ""},
+      {"since", kHistory, "N", "", {}, 1, 1e9},
+      {"baseline", kHistory, "N", "", {}, 1, 1e6},
       {"robot", kFiles, "FILE", ""},
       {"robot_format", kFiles, "FORMAT", "told by the file's beginning"},
       {"robot_rotation", kFiles, "", "", {kRotationOrders.begin(), kRotationOrders.end()}},

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "estimator/mount_change.h"
 #include "estimator/quantiles.h"
 #include "estimator/registration_error.h"
 #include "geometry/rotation_angles.h"
@@ -115,22 +116,13 @@ Change ChangeOf(const EarlierResult& earlier, const Audit& audit) {
   Change change;
   change.earlier = earlier;
   const BaseAndTool& now = audit.estimate.mounts;
-  change.difference << Minus(now.world_from_base, earlier.mounts.world_from_base),
-      Minus(now.platform_from_tool, earlier.mounts.platform_from_tool);
-  const Matrix12d covariance = audit.estimate.covariance + earlier.covariance;
-  bool all = true;
-  for (int i = 0; i < 12; ++i) {
-    const bool is_determined = audit.estimate.observability.determined[i] && earlier.determined[i];
-    all = all && is_determined;
-    change.sigmas[i] = is_determined ? change.difference[i] / std::sqrt(covariance(i, i))
-                                     : std::numeric_limits<double>::quiet_NaN();
-  }
-  change.chi_square = change.p_value = std::numeric_limits<double>::quiet_NaN();
-  const Eigen::LLT<Matrix12d> factor(covariance);
-  if (all && factor.info() == Eigen::Success) {
-    change.chi_square = change.difference.dot(factor.solve(change.difference));
-    change.p_value = ChiSquareTail(change.chi_square, 12.0);
-  }
+  const MountChange found =
+      ChangeBetween({earlier.mounts, earlier.covariance, earlier.determined},
+                    {now, audit.estimate.covariance, audit.estimate.observability.determined});
+  change.difference = found.difference;
+  change.sigmas = found.sigmas;
+  change.chi_square = found.chi_square;
+  change.p_value = found.p_value;
   const Pose3d centre = PoseFromVector(audit.workspace.Centre());
   for (const NamedPoint& point : audit.requirements.points)
     change.at_points.push_back(

@@ -180,6 +180,7 @@ std::string AuditHtml(const AuditIdentity& identity, const RunRecord& record, co
   AddValidation(audit, &page);
   AddAccuracy(audit, &page);
   AddChange(audit, &page);
+  if (identity.log) AddChangeLog(*identity.log, &page);
   AddReproduction(record, audit.estimate.warnings, "result.json, model.yaml and audit.json", &page);
   AddGlossary(&page);
   return page.Html();

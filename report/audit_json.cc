@@ -197,6 +197,7 @@ Json AuditObject(const AuditIdentity& identity, const Audit& audit) {
   json["bodies"] = Bodies(audit);
   json["poses"] = Poses(audit);
   json["change"] = audit.change ? ChangeObject(audit) : Json();
+  if (identity.log) json["history"] = ChangeLogJson(*identity.log);
   json["warnings"] = audit.estimate.warnings;
   return json;
 }

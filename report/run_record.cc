@@ -31,6 +31,10 @@ std::string RunJson(const RunRecord& record) {
                               {"seconds_per_iteration",
                                m.iterations > 0 ? nlohmann::ordered_json(m.seconds / m.iterations)
                                                 : nlohmann::ordered_json()}});
+  if (record.history)
+    run["history"] = {{"file", record.history->file},
+                      {"record", record.history->number},
+                      {"head", record.history->head}};
   return JsonText(run);
 }
 

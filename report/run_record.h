@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,13 @@ struct MethodTime {
   int iterations = 0;  // 0: none, a closed form
 };
 
+// The record of a history that a run has become.
+struct HistoryMark {
+  std::string file;
+  long number = 0;
+  std::string head;  // its hash, 64 hexadecimal digits
+};
+
 // Where a result comes from: what may differ between two runs that give the same result.
 struct RunRecord {
   std::string version;                                        // of hexcal and its libraries, lines
@@ -22,7 +30,8 @@ struct RunRecord {
   std::string started_utc;                                    // ISO 8601
   double seconds = 0.0;
   int threads = 1;
-  std::vector<MethodTime> methods;  // hexcal compare
+  std::vector<MethodTime> methods;     // hexcal compare
+  std::optional<HistoryMark> history;  // with --history
 };
 
 // run.json, format hexcal/run/1.

@@ -132,12 +132,13 @@ TEST(CliSchema, HoldsForWhatCompareAndAuditWrite) {
   const TemporaryFolder folder;
   for (const std::string& dataset : {kNeurobot, kPaper})
     Call({"compare", dataset, "--out=a", "--draws=1000", "--starts=1"}, folder);
-  EXPECT_EQ(Call({"calibrate", kNeurobot, "--out=b"}, folder).status, 0);
+  EXPECT_EQ(Call({"calibrate", kNeurobot, "--history=h.sqlite", "--out=b"}, folder).status, 0);
   const ProgramResult audit = Call({"audit",
                                     kNeurobot,
                                     "--requirement=" + kExamples + "/neurobot/requirement.yaml",
                                     "--previous=b/neurobot/result.json",
                                     "--draws=1000",
+                                    "--history=h.sqlite",
                                     "--out=c"},
                                    folder);
   EXPECT_EQ(audit.status, 0) << audit.err;
