@@ -204,6 +204,9 @@ Command AuditCommand() {
        {"quiet"},
        {"force"}},
       &RunAudit,
+      {{"hexcal audit examples/neurobot/dataset.yaml "
+        "--requirement=examples/neurobot/requirement.yaml --out=out",
+        "Is the tool's tip within 0.5 mm? out/neurobot/report.html is the report to sign."}},
   };
 }
 

@@ -244,6 +244,8 @@ Command BatchCommand() {
         {},
         "Replace files that hexcal did not write, and results of another manifest."}},
       &RunBatch,
+      {{"hexcal batch examples/batch/datasets.yaml --out=out/batch",
+        "Three datasets, a row of results.csv each."}},
   };
 }
 

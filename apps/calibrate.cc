@@ -231,6 +231,12 @@ Command CalibrateCommand() {
        {"quiet"},
        {"force"}},
       &RunCalibrate,
+      {{"hexcal calibrate examples/neurobot/dataset.yaml --out=out",
+        "Base and tool from the readings of the markers."},
+       {"hexcal calibrate examples/paper/dataset.yaml --solver=linearized --start=shah --out=out",
+        "The same by the paper's own iteration, from a closed form."},
+       {"hexcal calibrate examples/neurobot*/dataset.yaml --outliers=reject --json --out=out",
+        "Several datasets, bad poses left out, the results as JSON."}},
   };
 }
 

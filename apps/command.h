@@ -16,6 +16,12 @@ struct CommandFlag {
   std::string_view help = {};  // in place of the flag's own description
 };
 
+// A call that works as it stands in the folder of the sources, where examples/ is.
+struct CommandExample {
+  std::string_view line;
+  std::string_view what;  // it does
+};
+
 struct Command {
   std::string_view name;
   std::string_view summary;    // one line, for the list of commands
@@ -25,6 +31,7 @@ struct Command {
   std::string_view description;  // paragraphs, for help
   std::vector<CommandFlag> flags;
   int (*run)(const std::vector<std::string>& files);  // gives the exit status
+  std::vector<CommandExample> examples = {};
 
   const CommandFlag* FindFlag(std::string_view flag) const;  // nullptr if it takes none such
 };

@@ -122,6 +122,8 @@ Command CompareCommand() {
        {"quiet"},
        {"force"}},
       &RunCompare,
+      {{"hexcal compare examples/paper/dataset.yaml --out=out",
+        "Every method on the paper's own example."}},
   };
 }
 

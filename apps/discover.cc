@@ -127,6 +127,8 @@ Command DiscoverCommand() {
        {"quiet"},
        {"force"}},
       &RunDiscover,
+      {{"hexcal discover examples/hidden-effect/dataset.yaml --bootstraps=199 --out=out",
+        "What the model misses; fewer draws than usual, for a first look."}},
   };
 }
 

@@ -113,6 +113,11 @@ Command ExportCommand() {
        {"quiet"},
        {"force"}},
       &RunExport,
+      {{"hexcal export urdf out/neurobot/result.json --base_frame=hexapod --out=out/urdf",
+        "As fixed joints, the robot's base being called hexapod."},
+       {"hexcal export tum out/neurobot/result.json --dataset=examples/neurobot/dataset.yaml "
+        "--out=out/tum",
+        "Measured and predicted poses, for evo."}},
   };
 }
 

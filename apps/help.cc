@@ -55,6 +55,30 @@ std::string FlagHelp(const CommandFlag& own) {
   return fmt::format("  {}\n{}", Form(own), Wrap(FlagText(own), 6));
 }
 
+// A command to be typed, cut between its words where it is long.
+std::string WrapExample(std::string_view line) {
+  std::string text, part;
+  while (!line.empty()) {
+    const std::size_t end = std::min(line.find(' '), line.size());
+    const std::string_view word = line.substr(0, end);
+    line.remove_prefix(std::min(end + 1, line.size()));
+    if (!part.empty() && part.size() + word.size() + 5 > kWidth) {
+      text += part + " \\\n";
+      part = "         ";
+    }
+    part += (part.empty() ? "      " : " ") + std::string(word);
+  }
+  return text + part + "\n";
+}
+
+std::string ExamplesHelp(const Command& command) {
+  if (command.examples.empty()) return "";
+  std::string text = "\nExamples\n";
+  for (const CommandExample& example : command.examples)
+    text += Wrap(example.what, 2) + WrapExample(example.line);
+  return text;
+}
+
 // The groups in the order of the table of flags.
 std::vector<std::string_view> Groups() {
   std::vector<std::string_view> groups;
@@ -103,6 +127,7 @@ std::string UsageLine(const Command& command) {
 std::string CommandHelp(const Command& command) {
   std::string text = fmt::format("{}\n\n", UsageLine(command));
   text += Wrap(command.description, 0);
+  text += ExamplesHelp(command);
   for (const std::string_view group : Groups()) {
     std::string flags;
     for (const CommandFlag& own : command.flags) {

@@ -228,6 +228,9 @@ Command ImportCommand() {
        {"quiet"},
        {"force"}},
       &RunImport,
+      {{"hexcal import ndi_csv examples/ndi-and-pi/tracker.csv "
+        "--robot=examples/ndi-and-pi/hexapod.dat --base=0x0A --tool=0x0B --pair=rows --out=bench",
+        "A tracker's file and a robot's, row by row, to bench/dataset.yaml."}},
   };
 }
 

@@ -124,6 +124,8 @@ Command PivotCommand() {
        {"quiet"},
        {"force"}},
       &RunPivot,
+      {{"hexcal pivot examples/pivot/pivoting.yaml --outliers=reject --out=out",
+        "The tip of a tool that was tilted about it."}},
   };
 }
 

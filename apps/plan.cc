@@ -175,6 +175,8 @@ Command PlanCommand() {
        {"quiet"},
        {"force"}},
       &RunPlan,
+      {{"hexcal plan examples/neurobot/dataset.yaml --model=out/neurobot/model.yaml --out=next.csv",
+        "Twelve more poses for base and tool."}},
   };
 }
 

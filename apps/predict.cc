@@ -74,6 +74,9 @@ Command PredictCommand() {
        {"quiet"},
        {"force"}},
       &RunPredict,
+      {{"hexcal predict examples/neurobot-test/plan.yaml --model=out/neurobot/model.yaml "
+        "--out=where.csv",
+        "Where the calibrated machine is at other poses."}},
   };
 }
 

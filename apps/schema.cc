@@ -71,7 +71,9 @@ Command SchemaCommand() {
           2,
           SchemaDescription(),
           {},
-          &RunSchema};
+          &RunSchema,
+          {{"hexcal schema dataset > dataset.schema.json",
+            "For an editor that checks YAML while it is written."}}};
 }
 
 }  // namespace hexcal

@@ -83,6 +83,9 @@ Command SimulateCommand() {
        {"quiet"},
        {"force"}},
       &RunSimulate,
+      {{"hexcal simulate examples/neurobot/plan.yaml --model=examples/neurobot/truth.yaml --seed=7 "
+        "--out=again",
+        "What the tracker would see of a known machine."}},
   };
 }
 
