@@ -20,7 +20,9 @@ namespace {
 constexpr std::array<std::string_view, 8> kNotSettings = {
     "out", "report", "model", "config", "threads", "json", "quiet", "force"};
 
-std::vector<std::string_view> SettingsOf(std::string_view command) {
+}  // namespace
+
+std::vector<std::string_view> BatchSettings(std::string_view command) {
   std::vector<std::string_view> keys;
   for (const CommandFlag& flag : FindCommand(command)->flags)
     if (std::find(kNotSettings.begin(), kNotSettings.end(), flag.name) == kNotSettings.end())
@@ -28,11 +30,9 @@ std::vector<std::string_view> SettingsOf(std::string_view command) {
   return keys;
 }
 
-}  // namespace
-
 void ApplyBatchSettings(std::string_view command, const YamlNode* settings) {
   if (settings == nullptr) return;
-  ApplySettings(*settings, fmt::format("the settings of {}", command), SettingsOf(command));
+  ApplySettings(*settings, fmt::format("the settings of {}", command), BatchSettings(command));
   for (const auto& [key, value] : settings->entries) {
     const std::string_view other = FindFlag(key.scalar)->together_with;
     if (!other.empty() && !WasGiven(*FindFlag(other)))

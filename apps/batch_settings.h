@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "config/strict_yaml.h"
 #include "estimator/calibrate.h"
 
 namespace hexcal {
+
+// The flags of a command that the settings of a manifest may hold.
+std::vector<std::string_view> BatchSettings(std::string_view command);
 
 // Sets the flags of a command that a manifest's mapping names, those of results and of running
 // excepted. Null: nothing to set. InputError with file and line.

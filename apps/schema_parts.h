@@ -20,4 +20,7 @@ nlohmann::ordered_json NameSchemas();
 // A --config file, by the table of flags; of one command, or (nullptr) with the flags of all.
 nlohmann::ordered_json SettingsSchema(const Command* command);
 
+// The settings in a manifest of batch.
+nlohmann::ordered_json BatchSettingsSchema(const Command& command);
+
 }  // namespace hexcal

@@ -8,6 +8,7 @@ namespace hexcal {
 // The files of apps/schemas/, embedded when hexcal was built: JSON Schemas whose references may
 // point to definitions of common.json or to generated ones (schema_parts.h).
 std::string_view CommonSchemaText();
+std::string_view BatchSchemaText();
 std::string_view DatasetSchemaText();
 std::string_view ModelSchemaText();
 std::string_view RequirementSchemaText();

@@ -31,6 +31,8 @@ const Json& Definitions() {
     Json all = Json::parse(CommonSchemaText());
     all.update(NameSchemas());
     all["effect"] = EffectSchema();
+    for (const char* command : {"calibrate", "discover"})
+      all[fmt::format("{}_settings", command)] = BatchSettingsSchema(*FindCommand(command));
     return all;
   }();
   return definitions;
@@ -62,6 +64,7 @@ const std::vector<SchemaInfo>& Schemas() {
       {"requirement", "--requirement of audit", &RequirementSchemaText},
       {"columns", "--map and --robot_map of import", &ColumnsSchemaText},
       {"pivoting", "what pivot reads", &PivotingSchemaText},
+      {"batch", "the manifest of batch", &BatchSchemaText},
       {"result", "result.json of calibrate, audit and discover", &ResultSchemaText},
       {"discovery", "discovery.json", &DiscoverySchemaText},
       {"audit", "audit.json", &AuditSchemaText},

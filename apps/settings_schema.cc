@@ -2,8 +2,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
 
+#include "apps/batch_settings.h"
 #include "apps/flag_value.h"
 #include "apps/flags.h"
 #include "apps/help.h"
@@ -15,10 +18,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json NumberSchema(const FlagSpec& spec) {
-  Json schema = {{"type", IsWholeNumber(spec) ? "integer" : "number"}};
+  const bool is_whole = IsWholeNumber(spec);
+  const auto end = [is_whole](double value) {
+    return is_whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
+  };
+  Json schema = {{"type", is_whole ? "integer" : "number"}};
   if (std::isfinite(spec.low))
-    schema[spec.low_excluded ? "exclusiveMinimum" : "minimum"] = spec.low;
-  if (std::isfinite(spec.high)) schema["maximum"] = spec.high;
+    schema[spec.low_excluded ? "exclusiveMinimum" : "minimum"] = end(spec.low);
+  if (std::isfinite(spec.high))
+    schema["maximum"] = end(spec.high);
+  else if (is_whole)
+    schema["maximum"] = std::numeric_limits<std::int64_t>::max();
   return schema;
 }
 
@@ -51,6 +61,20 @@ Json SettingsSchema(const Command* command) {
   return {{"title", fmt::format("settings{}, for --config (docs/commands.md)", of)},
           {"type", "object"},
           {"properties", properties},
+          {"additionalProperties", false}};
+}
+
+Json BatchSettingsSchema(const Command& command) {
+  Json properties = Json::object();
+  Json together = Json::object();
+  for (const std::string_view name : BatchSettings(command.name)) {
+    Add(*command.FindFlag(name), properties);
+    const std::string_view other = FindFlag(name)->together_with;
+    if (!other.empty()) together[std::string(name)] = {std::string(other)};
+  }
+  return {{"type", "object"},
+          {"properties", properties},
+          {"dependentRequired", together},
           {"additionalProperties", false}};
 }
 

@@ -91,7 +91,7 @@ TEST(CliSchema, SettingsAreThoseOfACommand) {
   const TemporaryFolder folder;
   const Json all = SchemaOf("settings", folder);
   const Json own = Json::parse(Call({"schema", "settings", "simulate"}, folder).out);
-  EXPECT_EQ(own["properties"]["seed"]["minimum"], 0.0);
+  EXPECT_EQ(own["properties"]["seed"]["minimum"], 0);
   EXPECT_FALSE(own["properties"].contains("solver"));
   EXPECT_EQ(all["properties"]["solver"]["enum"], Json({"nonlinear", "linearized"}));
 }

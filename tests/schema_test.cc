@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/batch_manifest.h"
 #include "apps/config_file.h"
 #include "apps/schemas.h"
 #include "measurement/dataset.h"
@@ -47,6 +48,10 @@ std::string Refusal(const std::string& kind, const std::string& path) {
     if (kind == "requirement") ReadRequirements(path);
     if (kind == "columns") ReadColumnMap(path);
     if (kind == "pivoting") ReadPivoting(path);
+    if (kind == "batch") {
+      const gflags::FlagSaver flags_as_they_were;
+      ReadManifest(path);
+    }
     if (kind == "settings") {
       const gflags::FlagSaver flags_as_they_were;
       CommandLine line;
@@ -210,6 +215,18 @@ void ExpectAgreement(const std::string& kind,
   ExpectTheSameOfMistakes(kind, schema, samples);
 }
 
+// Each of these settings with a value that it may have.
+Json OneOfEach(const Json& schema) {
+  Json all;
+  for (const auto& [name, flag] : schema["properties"].items())
+    all[name] = flag.contains("enum")       ? flag["enum"].back()
+                : flag["type"] == "boolean" ? Json(true)
+                : flag["type"] == "integer" ? flag["minimum"]
+                : flag["type"] == "number"  ? Json(0.125)
+                                            : Json("word");
+  return all;
+}
+
 TEST(Schema, OfDatasetsAgreesWithTheReader) {
   ExpectAgreement("dataset", Parsed(testing::DatasetSamples()));
 }
@@ -225,17 +242,19 @@ TEST(Schema, OfColumnMapsAgreesWithTheReader) {
 TEST(Schema, OfPivotingsAgreesWithTheReader) {
   ExpectAgreement("pivoting", Parsed(testing::PivotingSamples()));
 }
+TEST(Schema, OfManifestsAgreesWithTheReader) {
+  const auto sample = [](const char* name) {
+    Json manifest = {{"format", "hexcal/batch/1"}, {"name", "all"}, {"command", name}};
+    manifest["datasets"] = {"a.yaml", "b.yaml"};
+    manifest["settings"] = OneOfEach(Schema("batch")["$defs"][std::string(name) + "_settings"]);
+    return manifest;
+  };
+  ExpectAgreement("batch", {sample("calibrate"), sample("discover")});
+}
+
 TEST(Schema, OfSettingsAgreesWithTheReader) {
   const Command* command = FindCommand("calibrate");
-  Json all;
-  const Json schema = Schema("settings", command);
-  for (const auto& [name, flag] : schema["properties"].items())
-    all[name] = flag.contains("enum")       ? flag["enum"].back()
-                : flag["type"] == "boolean" ? Json(true)
-                : flag["type"] == "integer" ? Json(3)
-                : flag["type"] == "number"  ? Json(0.5)
-                                            : Json("word");
-  ExpectAgreement("settings", {all}, command);
+  ExpectAgreement("settings", {OneOfEach(Schema("settings", command))}, command);
 }
 
 // ---- all of them

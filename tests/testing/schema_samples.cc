@@ -270,7 +270,10 @@ const std::vector<const char*> kBeyondSchemas = {
     "in one place",
     "between the same joints",
     "a point beyond any machine",
+    "go with --solver=nonlinear only",
+    "again (it is named at",
     // Numbers as names.
+    "letters, digits, '.', '-' and '_', the first a letter or digit",
     "letters, digits, '.', '_' and '-' only",
 };
 
