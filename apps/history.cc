@@ -165,6 +165,10 @@ Command HistoryCommand() {
        {"json"},
        {"quiet"}},
       &RunHistory,
+      {{"hexcal calibrate examples/neurobot/dataset.yaml --history=all.sqlite --out=out && "
+        "hexcal history list all.sqlite",
+        "Keeps a calibration, and lists what is kept."},
+       {"hexcal history trend all.sqlite", "Has anything drifted, against its uncertainty?"}},
   };
 }
 
