@@ -11,6 +11,7 @@
 #include "apps/export.h"
 #include "apps/history.h"
 #include "apps/import.h"
+#include "apps/init.h"
 #include "apps/pivot.h"
 #include "apps/plan.h"
 #include "apps/predict.h"
@@ -34,6 +35,7 @@ const std::vector<Command>& Commands() {
                                                 ExportCommand(),
                                                 HistoryCommand(),
                                                 ImportCommand(),
+                                                InitCommand(),
                                                 PivotCommand(),
                                                 PlanCommand(),
                                                 PredictCommand(),

@@ -125,6 +125,8 @@ class ArgumentReader {
 void CheckNumberOfFiles(const Command& command, const std::vector<std::string>& files) {
   if (files.size() >= command.min_files && files.size() <= command.max_files) return;
   if (files.empty()) Refuse(command, fmt::format("found no file, expected {}", command.arguments));
+  if (command.max_files == 0)
+    Refuse(command, fmt::format("found '{}', expected no file", files[0]));
   Refuse(command, fmt::format("found {} files, expected {}", files.size(), command.arguments));
 }
 

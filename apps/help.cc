@@ -117,7 +117,8 @@ std::string FlagText(const CommandFlag& own) {
 }
 
 std::string UsageLine(const Command& command) {
-  std::string text = fmt::format("hexcal {} {}", command.name, command.arguments);
+  std::string text = fmt::format("hexcal {}", command.name);
+  if (!command.arguments.empty()) text += fmt::format(" {}", command.arguments);
   for (const CommandFlag& own : command.flags) {
     if (own.required) text += " " + Form(own);
   }

@@ -36,7 +36,8 @@ std::optional<Pairing> PairingFromFlags() {
   return std::nullopt;
 }
 
-// Allowed characters only: it becomes the name of a folder of results.
+}  // namespace
+
 std::string NameOfFolder(const std::string& out) {
   const fs::path path = fs::path(out).lexically_normal();
   std::string name = (path.has_filename() ? path : path.parent_path()).filename().string();
@@ -46,8 +47,6 @@ std::string NameOfFolder(const std::string& out) {
   }
   return name.empty() || name == "." || name == ".." ? "imported" : name;
 }
-
-}  // namespace
 
 ImportOptions TrackerOptions() {
   ImportOptions options;
