@@ -23,6 +23,7 @@
 #include "batch/folder_lock.h"
 #include "batch/run_chunks.h"
 #include "batch/store.h"
+#include "batch/study_summary.h"
 #include "batch/write_csv.h"
 #include "config/atomic_file.h"
 
@@ -30,6 +31,7 @@ namespace hexcal {
 namespace {
 
 constexpr std::string_view kResultsMark = "study,idx,status,message";
+constexpr std::string_view kSummaryMark = "study,scenario,noise,poses";
 constexpr int kMostGaps = 5;  // named in a message
 
 // Straight into the store, a chunk a transaction.
@@ -46,17 +48,20 @@ class StoreSink : public ChunkSink {
   Store* store_;
 };
 
+std::vector<OutputFile> OutputsOf(const Manifest& manifest) {
+  std::vector<OutputFile> files = {{"results.csv", std::string(kResultsMark)},
+                                   {"run.json", std::string(kRunMark)}};
+  if (manifest.study != nullptr) files.push_back({"summary.csv", std::string(kSummaryMark)});
+  return files;
+}
+
 class BatchRun {
  public:
   explicit BatchRun(const std::string& path)
       : path_(path),
         manifest_(ReadManifest(path)),
         chunks_(*manifest_.batch.job),
-        folder_(FLAGS_out,
-                "",
-                {{"results.csv", std::string(kResultsMark)}, {"run.json", std::string(kRunMark)}},
-                {path},
-                FLAGS_force),
+        folder_(FLAGS_out, "", OutputsOf(manifest_), {path}, FLAGS_force),
         files_(folder_.path(), manifest_.batch),
         store_path_(folder_.PathOf("results.sqlite")) {
     MakeFolder(folder_.path());
@@ -179,6 +184,9 @@ class BatchRun {
 
   int Finish(Store* store) {
     WriteCsv(folder_.PathOf("results.csv"), manifest_.batch, store);
+    if (manifest_.study != nullptr)
+      folder_.Write("summary.csv",
+                    SummaryCsv(manifest_.batch.name, Summarise(manifest_.study->study(), store)));
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     folder_.Write(
@@ -221,13 +229,16 @@ int RunBatch(const std::vector<std::string>& files) {
 Command BatchCommand() {
   return {
       "batch",
-      "many datasets, by one manifest",
+      "many datasets, or a Monte Carlo study",
       "MANIFEST",
       1,
       1,
       "Calibrates every dataset that the manifest names (docs/batch.md), or looks for what is "
       "missing in its model, and writes a row of results of each to results.csv and "
-      "results.sqlite in DIR. A bad dataset does not keep the others from being done (exit status "
+      "results.sqlite in DIR. Or it draws datasets from a truth, gives them to several estimators "
+      "and says in summary.csv how accurate these are and how often their intervals hold the "
+      "truth. "
+      "A bad dataset does not keep the others from being done (exit status "
       "6). Interrupted or killed, it keeps what was finished; the same command does the rest. "
       "Under mpirun, each process does a share and the last merges; --task and --merge are for "
       "the job arrays of Slurm and the like. The results depend on none of this.",

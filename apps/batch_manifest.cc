@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "apps/batch_datasets.h"
+#include "apps/batch_study.h"
 #include "apps/version.h"
 #include "config/input_file.h"
 #include "config/strict_yaml.h"
@@ -41,18 +42,35 @@ void RequireFormat(const YamlNode& node) {
     throw InputError(node.where, fmt::format("the format '{}'", node.scalar), kFormat);
 }
 
+void RequireOnlyAStudy(const MapReader& reader) {
+  for (const char* key : {"command", "datasets", "settings"})
+    if (const YamlNode* other = reader.Optional(key))
+      throw InputError(other->where,
+                       fmt::format("{} beside a study", key),
+                       "either datasets, or study and estimators");
+}
+
 }  // namespace
 
 Manifest ReadManifest(const std::string& path) {
   const YamlNode root = ParseYamlFile(path);
   const MapReader reader(
-      root, "the manifest", {"format", "name", "command", "datasets", "settings"});
+      root,
+      "the manifest",
+      {"format", "name", "command", "datasets", "settings", "study", "estimators"});
   RequireFormat(reader.Required("format"));
   Manifest manifest;
   manifest.batch.name = ReadName(reader.Required("name"));
   // What the job adds to this: contents or names of other files.
   std::string identity = FirstLine(VersionText()) + "\n" + HashFiles({path})[0].sha256 + "\n";
-  manifest.batch.job = ReadDatasetsJob(path, reader, &identity);
+  if (reader.Has("study") || reader.Has("estimators")) {
+    RequireOnlyAStudy(reader);
+    auto job = std::make_unique<StudyJob>(ReadStudy(path, manifest.batch.name, reader, &identity));
+    manifest.study = job.get();
+    manifest.batch.job = std::move(job);
+  } else {
+    manifest.batch.job = ReadDatasetsJob(path, reader, &identity);
+  }
   manifest.batch.digest = Sha256(identity);
   if (manifest.batch.rows() > kMostRows)
     throw InputError(reader.where(),

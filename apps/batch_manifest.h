@@ -4,13 +4,14 @@
 #include <string>
 
 #include "batch/job.h"
+#include "batch/study_job.h"
 
 namespace hexcal {
 
 // What a manifest (docs/batch.md) says is to be done.
 struct Manifest {
   Batch batch;
-  bool is_study = false;
+  const StudyJob* study = nullptr;  // the batch's job, if that is a study
 };
 
 // Sets the flags of the command that the manifest's settings name. InputError with file and line

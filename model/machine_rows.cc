@@ -100,7 +100,8 @@ MachineRows::MachineRows(const Dataset& dataset,
       machine_(machine),
       hexapod_(HexapodOf(dataset, machine)),
       effects_(Acting(machine.effects, sites)),
-      visits_(dataset, hexapod_, reported) {
+      // Without an effect nobody asks where the legs are.
+      visits_(dataset, effects_.empty() ? nullptr : hexapod_, reported) {
   RequireDrivers(dataset, hexapod_, effects_);
 }
 

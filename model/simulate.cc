@@ -13,27 +13,55 @@
 namespace hexcal {
 namespace {
 
+// SplitMix64 (Steele, Lea, Flood, OOPSLA 2014): any state is a good seed.
+class QuickGenerator {
+ public:
+  using result_type = std::uint64_t;
+  static constexpr result_type min() { return 0; }
+  static constexpr result_type max() { return ~result_type{0}; }
+
+  QuickGenerator(std::uint64_t seed, const std::string& label) : state_(seed) {
+    for (const char c : label) state_ = (*this)() ^ static_cast<unsigned char>(c);
+  }
+
+  result_type operator()() {
+    result_type z = (state_ += 0x9e3779b97f4a7c15);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return z ^ (z >> 31);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
 // Standard normal draws that belong to one pose, whatever other poses there are and in which order.
 class PoseDraws {
  public:
   PoseDraws(const SimulateOptions& options, const std::string& label) : factor_(options.noise) {
+    if (options.quick) {
+      quick_.emplace(options.seed, label);
+      return;
+    }
     std::vector<std::uint32_t> words = {static_cast<std::uint32_t>(options.seed),
                                         static_cast<std::uint32_t>(options.seed >> 32)};
     for (const char c : label) words.push_back(static_cast<unsigned char>(c));
     std::seed_seq seed(words.begin(), words.end());
-    generator_.seed(seed);
+    generator_.emplace(seed);
   }
 
   template <int kSize>
   Eigen::Matrix<double, kSize, 1> Draw() {
     Eigen::Matrix<double, kSize, 1> draws;
-    for (int i = 0; i < kSize; ++i) draws[i] = factor_ * normal_(generator_);
+    for (int i = 0; i < kSize; ++i)
+      draws[i] = factor_ * (quick_ ? normal_(*quick_) : normal_(*generator_));
     return draws;
   }
 
  private:
   double factor_;
-  std::mt19937_64 generator_;
+  std::optional<QuickGenerator> quick_;
+  std::optional<std::mt19937_64> generator_;
   std::normal_distribution<double> normal_;
 };
 

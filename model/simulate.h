@@ -11,6 +11,9 @@ namespace hexcal {
 struct SimulateOptions {
   std::uint64_t seed = 1;
   double noise = 1.0;  // factor on every stated sigma; 0 for none
+  // Other draws, just as good, by a generator that is seeded in no time: for studies that simulate
+  // by the thousand.
+  bool quick = false;
 };
 
 // What the tracker would see of the dataset's robot poses if the machine, with all its effects,
