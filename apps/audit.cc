@@ -127,7 +127,7 @@ int RunAudit(const std::vector<std::string>& files) {
                        {"result.json", std::string(kResultMark)},
                        {"model.yaml", std::string(kModelMark)},
                        {"run.json", std::string(kRunMark)},
-                       {"report.html", HtmlPage::Mark("audit")}},
+                       {"report.html", HtmlPage::AnyMark()}},
                       AllInputs(dataset, requirements),
                       FLAGS_force);
   CheckHistoryFlag();

@@ -56,7 +56,7 @@ int RunCompare(const std::vector<std::string>& files) {
   const Dataset dataset = OpenDataset(files[0], true);
   std::vector<OutputFile> outputs = {{"compare.json", std::string(kCompareMark)},
                                      {"run.json", std::string(kRunMark)}};
-  if (FLAGS_report) outputs.push_back({"report.html", HtmlPage::Mark("compare")});
+  if (FLAGS_report) outputs.push_back({"report.html", HtmlPage::AnyMark()});
   OutputFolder folder(FLAGS_out, dataset.name, outputs, InputFiles(dataset, ""), FLAGS_force);
   const CompareOptions options = OptionsFromFlags();
   const Comparison comparison = CompareWithBars(dataset, options);

@@ -52,7 +52,7 @@ int RunDiscover(const std::vector<std::string>& files) {
                        {"result.json", std::string(kResultMark)},
                        {"model.yaml", std::string(kModelMark)},
                        {"run.json", std::string(kRunMark)},
-                       {"report.html", HtmlPage::Mark("discover")}},
+                       {"report.html", HtmlPage::AnyMark()}},
                       InputFiles(dataset, ""),
                       FLAGS_force);
   CheckHistoryFlag();

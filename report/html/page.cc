@@ -43,7 +43,7 @@ HtmlPage::HtmlPage(std::string kind, std::string title, std::string subtitle)
     : kind_(std::move(kind)), title_(std::move(title)), subtitle_(std::move(subtitle)) {}
 
 std::string HtmlPage::Mark(std::string_view kind) {
-  return fmt::format("<!-- hexcal/report/{}/1 -->", kind);
+  return fmt::format("{}{}/1 -->", AnyMark(), kind);
 }
 
 void HtmlPage::Section(std::string_view heading) {

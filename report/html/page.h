@@ -64,8 +64,10 @@ class HtmlPage {
 
   std::string Html() const;
 
-  // What the first line of such a page has in it.
+  // What the second line of such a page is; and what it begins with, of whatever kind, since the
+  // commands share a folder and replace each other's report.html.
   static std::string Mark(std::string_view kind);
+  static std::string AnyMark() { return "<!-- hexcal/report/"; }
 
  private:
   std::string kind_, title_, subtitle_;
