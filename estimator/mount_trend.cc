@@ -68,6 +68,7 @@ double BetweenVariance(const std::vector<Position>& positions, int i) {
 // What the records in control say of the next one.
 struct Reference {
   Mean mean;
+  int records = 0;
   bool scatter_shows = false;
   double homogeneity_p = 1.0;
   Vector12d between_variance = Vector12d::Zero();
@@ -75,6 +76,7 @@ struct Reference {
 
 Reference ReferenceOf(const std::vector<Position>& in_control) {
   Reference reference;
+  reference.records = static_cast<int>(in_control.size());
   reference.mean = MeanOf(in_control, Vector12d::Zero());
   if (in_control.size() < 2) return reference;
   const double dof = kDof * static_cast<double>(in_control.size() - 1);
@@ -86,73 +88,146 @@ Reference ReferenceOf(const std::vector<Position>& in_control) {
   return reference;
 }
 
-void Judge(const std::vector<Position>& in_control,
-           const Position& position,
-           double alpha,
-           TrendPoint* point) {
-  const Reference reference = ReferenceOf(in_control);
-  Matrix12d covariance = position.covariance + reference.mean.covariance;
-  covariance.diagonal() += reference.between_variance;
-  const Vector12d e = position.d - reference.mean.value;
-  const double nu = static_cast<double>(in_control.size()) - 1.0;
+// Of e, whose covariance is that and has been estimated from so many records.
+ChartTest TestOf(const Vector12d& e,
+                 const Matrix12d& covariance,
+                 const Reference& reference,
+                 double alpha) {
   const bool shows = reference.scatter_shows;
+  const double nu = reference.records - 1.0;
   const double quantile = shows ? StudentTQuantile(1.0 - 0.5 * alpha / kDof, nu)
                                 : std::sqrt(ChiSquareQuantile(1.0 - alpha / kDof, 1.0));
-  point->is_judged = true;
-  point->centre = reference.mean.value;
-  point->half_width = quantile * covariance.diagonal().cwiseSqrt();
-  point->t_squared = e.dot(SpdFactor<kDof>(covariance).Solve(e));
-  point->t_squared_limit =
+  ChartTest test;
+  test.deviation = e;
+  test.half_width = quantile * covariance.diagonal().cwiseSqrt();
+  test.t_squared = e.dot(SpdFactor<kDof>(covariance).Solve(e));
+  test.t_squared_limit =
       shows ? kDof * FisherFQuantile(1.0 - alpha, kDof, nu) : ChiSquareQuantile(1.0 - alpha, kDof);
-  point->p_value = shows ? FisherFTail(point->t_squared / kDof, kDof, nu)
-                         : ChiSquareTail(point->t_squared, kDof);
-  point->is_in_control = point->p_value >= alpha;
+  test.p_value =
+      shows ? FisherFTail(test.t_squared / kDof, kDof, nu) : ChiSquareTail(test.t_squared, kDof);
+  test.is_in_control = test.p_value >= alpha;
   for (int i = 0; i < kDof; ++i) {
-    point->outside[i] = !(std::abs(e[i]) <= point->half_width[i]);
-    if (point->outside[i]) point->is_in_control = false;
+    test.outside[i] = !(std::abs(e[i]) <= test.half_width[i]);
+    if (test.outside[i]) test.is_in_control = false;
   }
+  return test;
+}
+
+Matrix12d WithBetween(const Position& position, const Reference& reference) {
+  Matrix12d covariance = position.covariance;
+  covariance.diagonal() += reference.between_variance;
+  return covariance;
+}
+
+ChartTest TestLevel(const Reference& reference, const Position& position, double alpha) {
+  return TestOf(position.d - reference.mean.value,
+                WithBetween(position, reference) + reference.mean.covariance,
+                reference,
+                alpha);
+}
+
+// The moving mean of the records after a baseline, from the baseline's own mean: known is the
+// covariance of its share of the records, start what is left of the baseline in it.
+class MovingMean {
+ public:
+  MovingMean(const Reference& baseline, double weight)
+      : baseline_(baseline), weight_(weight), mean_(baseline.mean.value) {}
+
+  ChartTest Add(const Position& position, double alpha) {
+    const double rest = 1.0 - weight_;
+    mean_ = rest * mean_ + weight_ * position.d;
+    known_ = rest * rest * known_ + weight_ * weight_ * WithBetween(position, baseline_);
+    start_ *= rest;
+    return TestOf(mean_ - baseline_.mean.value,
+                  known_ + (1.0 - start_) * (1.0 - start_) * baseline_.mean.covariance,
+                  baseline_,
+                  alpha);
+  }
+
+ private:
+  Reference baseline_;
+  double weight_;
+  Vector12d mean_;
+  Matrix12d known_ = Matrix12d::Zero();
+  double start_ = 1.0;
+};
+
+// A straight line through positions over s, which is 0 at the first.
+struct Line {
+  Vector12d rate;
+  Matrix12d information;  // of the rate
+  double q = 0.0;         // the squared deviations from it
+  std::vector<Vector12d> deviations;
+};
+
+std::optional<Line> FitLine(const std::vector<Position>& positions,
+                            const std::vector<double>& s,
+                            const Vector12d& between_variance) {
+  Matrix12d w0 = Matrix12d::Zero(), w1 = w0, w2 = w0;
+  Vector12d r0 = Vector12d::Zero(), r1 = r0;
+  std::vector<Matrix12d> weights;
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    Matrix12d covariance = positions[k].covariance;
+    covariance.diagonal() += between_variance;
+    weights.push_back(SpdFactor<kDof>(covariance).Inverse());
+    const Vector12d weighted = weights[k] * positions[k].d;
+    w0 += weights[k];
+    w1 += s[k] * weights[k];
+    w2 += s[k] * s[k] * weights[k];
+    r0 += weighted;
+    r1 += s[k] * weighted;
+  }
+  Line line;
+  const SpdFactor<kDof> level(w0);
+  const Matrix12d reduced = w2 - w1 * level.Inverse() * w1;
+  line.information = 0.5 * (reduced + reduced.transpose());
+  const SpdFactor<kDof> slope(line.information);
+  if (!(slope.smallest_pivot() > 0.0)) return std::nullopt;
+  line.rate = slope.Solve(r1 - w1 * level.Solve(r0));
+  const Vector12d offset = level.Solve(r0 - w1 * line.rate);
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    line.deviations.push_back(positions[k].d - offset - s[k] * line.rate);
+    line.q += line.deviations[k].dot(weights[k] * line.deviations[k]);
+  }
+  return line;
+}
+
+// What the deviations of a parameter from a line have beyond its variances within.
+double BetweenVariance(const Line& line, const std::vector<Position>& positions, int i) {
+  double q = 0.0, w = 0.0;
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    q += line.deviations[k][i] * line.deviations[k][i] / positions[k].covariance(i, i);
+    w += 1.0 / positions[k].covariance(i, i);
+  }
+  const double records = static_cast<double>(positions.size());
+  return std::max(0.0, (q / (records - 2.0) - 1.0) * records / w);
 }
 
 std::optional<MountDrift> DriftOf(const std::vector<Position>& positions) {
   if (positions.size() < 3) return std::nullopt;
-  const double start = positions.front().time;
   double longest = 0.0;
-  for (const Position& p : positions) longest = std::max(longest, std::abs(p.time - start));
+  for (const Position& p : positions)
+    longest = std::max(longest, std::abs(p.time - positions.front().time));
   if (!(longest > 0.0)) return std::nullopt;
-  // Times in units of the longest, for the numbers' sake; W sums of the weights.
-  Matrix12d w0 = Matrix12d::Zero(), w1 = w0, w2 = w0;
-  Vector12d r0 = Vector12d::Zero(), r1 = r0;
-  std::vector<Matrix12d> weights;
-  for (const Position& p : positions) {
-    const double s = (p.time - start) / longest;
-    weights.push_back(SpdFactor<kDof>(p.covariance).Inverse());
-    w0 += weights.back();
-    w1 += s * weights.back();
-    w2 += s * s * weights.back();
-    r0 += weights.back() * p.d;
-    r1 += s * (weights.back() * p.d);
-  }
-  const SpdFactor<kDof> level(w0);
-  const Matrix12d reduced = w2 - w1 * level.Inverse() * w1;
-  const SpdFactor<kDof> slope(0.5 * (reduced + reduced.transpose()));
-  if (!(slope.smallest_pivot() > 0.0)) return std::nullopt;
-  const Vector12d rate = slope.Solve(r1 - w1 * level.Solve(r0));
-  const Vector12d offset = level.Solve(r0 - w1 * rate);
-  double q = 0.0;
-  for (std::size_t k = 0; k < positions.size(); ++k) {
-    const Vector12d e = positions[k].d - offset - (positions[k].time - start) / longest * rate;
-    q += e.dot(weights[k] * e);
-  }
-  const double dof = kDof * static_cast<double>(positions.size() - 2);
+  std::vector<double> s;  // times in units of the longest, for the numbers' sake
+  for (const Position& p : positions) s.push_back((p.time - positions.front().time) / longest);
+  std::optional<Line> line = FitLine(positions, s, Vector12d::Zero());
+  if (!line) return std::nullopt;
+  const double dof = static_cast<double>(positions.size() - 2);
   MountDrift drift;
-  const bool shows = !(ChiSquareTail(q, dof) >= kScatterLevel);
-  drift.birge_ratio = std::max(1.0, std::sqrt(q / dof));
-  const double scale = shows ? drift.birge_ratio : 1.0;
-  drift.rate = rate / longest;
-  drift.standard_deviation = scale / longest * slope.Inverse().diagonal().cwiseSqrt();
-  drift.statistic = rate.dot(reduced * rate) / (scale * scale);
-  drift.p_value =
-      shows ? FisherFTail(drift.statistic / kDof, kDof, dof) : ChiSquareTail(drift.statistic, kDof);
+  drift.scatter_shows = !(ChiSquareTail(line->q, kDof * dof) >= kScatterLevel);
+  if (drift.scatter_shows) {
+    Vector12d between;
+    for (int i = 0; i < kDof; ++i) between[i] = BetweenVariance(*line, positions, i);
+    line = FitLine(positions, s, between);
+    if (!line) return std::nullopt;
+  }
+  drift.rate = line->rate / longest;
+  drift.standard_deviation =
+      SpdFactor<kDof>(line->information).Inverse().diagonal().cwiseSqrt() / longest;
+  drift.statistic = line->rate.dot(line->information * line->rate);
+  drift.p_value = drift.scatter_shows ? FisherFTail(drift.statistic / kDof, kDof, dof)
+                                      : ChiSquareTail(drift.statistic, kDof);
   return drift;
 }
 
@@ -171,6 +246,7 @@ MountTrend TrendOf(const std::vector<DatedMounts>& records, const TrendOptions& 
   CHECK_GE(options.baseline, 1);
   MountTrend trend;
   std::vector<Position> used, in_control;
+  std::optional<MovingMean> moving;
   const KnownMounts *first = nullptr, *before = nullptr;
   for (const DatedMounts& record : records) {
     TrendPoint& point = trend.points.emplace_back();
@@ -181,8 +257,14 @@ MountTrend TrendOf(const std::vector<DatedMounts>& records, const TrendOptions& 
     before = &record.known;
     point.position = Minus(record.known.mounts, first->mounts);
     used.push_back({point.position, record.known.covariance, record.time});
-    if (static_cast<int>(used.size()) > options.baseline)
-      Judge(in_control, used.back(), options.alpha, &point);
+    point.is_judged = static_cast<int>(used.size()) > options.baseline;
+    if (point.is_judged) {
+      const Reference reference = ReferenceOf(in_control);
+      if (!moving) moving.emplace(reference, options.moving_weight);
+      point.level = TestLevel(reference, used.back(), options.alpha);
+      if (point.level.is_in_control) point.moving = moving->Add(used.back(), options.alpha);
+      point.is_in_control = point.level.is_in_control && point.moving.is_in_control;
+    }
     if (point.is_in_control) in_control.push_back(used.back());
   }
   trend.in_control = static_cast<int>(in_control.size());

@@ -132,7 +132,7 @@ TEST_F(CliHistory, TrendSaysWhichRecordIsOutOfControlAndWhere) {
   const Json trend = Ask({"trend", "h.sqlite"})["datasets"][0];
   for (int i = 1; i < 4; ++i) EXPECT_TRUE(trend["records"][i]["in_control"].get<bool>()) << i;
   EXPECT_FALSE(trend["records"][4]["in_control"].get<bool>());
-  EXPECT_THAT(trend["records"][4]["outside"].get<std::vector<std::string>>(),
+  EXPECT_THAT(trend["records"][4]["level"]["outside"].get<std::vector<std::string>>(),
               ::testing::Contains("tool.dx"));
   const ProgramResult text = Run({"history", "trend", "h.sqlite", "--dataset=neurobot"});
   EXPECT_EQ(text.status, 0);

@@ -17,6 +17,19 @@ Json Problems(const HistoryCheck& check) {
   return list;
 }
 
+Json TestObject(const ChartTest& test) {
+  Json outside = Json::array();
+  for (int i = 0; i < 12; ++i)
+    if (test.outside[i]) outside.push_back(std::string(kParameters[i].name));
+  return {{"in_control", test.is_in_control},
+          {"deviation", JsonList(test.deviation)},
+          {"half_width", JsonList(test.half_width)},
+          {"outside", outside},
+          {"t_squared", test.t_squared},
+          {"t_squared_limit", test.t_squared_limit},
+          {"p_value", test.p_value}};
+}
+
 Json PointObject(const DatasetTrend& trend, std::size_t index) {
   const HistoryRecord& record = trend.records[index];
   const TrendPoint& point = trend.trend.points[index];
@@ -35,15 +48,8 @@ Json PointObject(const DatasetTrend& trend, std::size_t index) {
                       {"chi_square", point.step->chi_square},
                       {"p_value", point.step->p_value}};
   if (!point.is_judged) return object;
-  Json outside = Json::array();
-  for (int i = 0; i < 12; ++i)
-    if (point.outside[i]) outside.push_back(std::string(kParameters[i].name));
-  object["centre"] = JsonList(point.centre);
-  object["half_width"] = JsonList(point.half_width);
-  object["outside"] = outside;
-  object["t_squared"] = point.t_squared;
-  object["t_squared_limit"] = point.t_squared_limit;
-  object["p_value"] = point.p_value;
+  object["level"] = TestObject(point.level);
+  object["moving_mean"] = point.level.is_in_control ? TestObject(point.moving) : Json();
   return object;
 }
 
@@ -65,7 +71,7 @@ Json TrendObject(const DatasetTrend& trend) {
   if (all.drift)
     object["drift"] = {{"rate", JsonList(all.drift->rate)},
                        {"standard_deviation", JsonList(all.drift->standard_deviation)},
-                       {"birge_ratio", all.drift->birge_ratio},
+                       {"scatter_shows", all.drift->scatter_shows},
                        {"statistic", all.drift->statistic},
                        {"p_value", all.drift->p_value}};
   return object;

@@ -34,9 +34,9 @@ std::string ChartText(const DatasetTrend& trend) {
     text += fmt::format("  {:<7} {:<20}  {:>9}  {:>9}  {:>9}  {}\n",
                         trend.records[i].number,
                         Plain(trend.records[i].written),
-                        number(point.t_squared),
-                        number(point.t_squared_limit),
-                        point.is_judged ? ProbabilityText(point.p_value) : "–",
+                        number(point.level.t_squared),
+                        number(point.level.t_squared_limit),
+                        point.is_judged ? ProbabilityText(point.level.p_value) : "–",
                         VerdictText(trend, i));
   }
   return text;
@@ -68,8 +68,8 @@ std::string ParametersText(const DatasetTrend& trend) {
                         kParameters[i].name,
                         size(last->position[i]),
                         size(std::sqrt(known->covariance(i, i))),
-                        last->is_judged ? size(last->position[i] - last->centre[i]) : "–",
-                        last->is_judged ? size(last->half_width[i]) : "–",
+                        last->is_judged ? size(last->level.deviation[i]) : "–",
+                        last->is_judged ? size(last->level.half_width[i]) : "–",
                         size(all.between[i]),
                         drift,
                         UnitOf(i));
@@ -169,16 +169,19 @@ std::string VerdictText(const DatasetTrend& trend, std::size_t index) {
 }
 
 std::string OutOfControlText(const TrendPoint& point) {
+  const bool is_slow = point.level.is_in_control;
+  const ChartTest& test = is_slow ? point.moving : point.level;
   std::string text;
   for (int i = 0; i < 12; ++i)
-    if (point.outside[i])
+    if (test.outside[i])
       text += fmt::format("{}{} {:+.4f} {} (limit {:.4f})",
                           text.empty() ? "" : ", ",
                           kParameters[i].name,
-                          1e3 * (point.position[i] - point.centre[i]),
+                          1e3 * test.deviation[i],
                           UnitOf(i),
-                          1e3 * point.half_width[i]);
-  return text.empty() ? "all 12 together, none by itself" : text;
+                          1e3 * test.half_width[i]);
+  return (is_slow ? "by its moving mean, " : "") +
+         (text.empty() ? "all 12 together, none by itself" : text);
 }
 
 std::string HistoryTrendText(const std::vector<DatasetTrend>& trends, const TrendOptions& options) {
@@ -193,7 +196,7 @@ std::string HistoryTrendText(const std::vector<DatasetTrend>& trends, const Tren
   return text + fmt::format(
                     "Limits: each record against those before it that were in control; {} of the "
                     "records in\ncontrol are beyond by chance (Shewhart's 3 sigma), in T² of all "
-                    "12 or in any one of them.\n",
+                    "12 or in any one of them,\nand as many by the moving mean.\n",
                     ShareText(options.alpha));
 }
 
