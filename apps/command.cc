@@ -7,6 +7,7 @@
 #include "apps/batch.h"
 #include "apps/calibrate.h"
 #include "apps/compare.h"
+#include "apps/completion.h"
 #include "apps/discover.h"
 #include "apps/export.h"
 #include "apps/history.h"
@@ -31,6 +32,7 @@ const std::vector<Command>& Commands() {
                                                 BatchCommand(),
                                                 CalibrateCommand(),
                                                 CompareCommand(),
+                                                CompletionCommand(),
                                                 DiscoverCommand(),
                                                 ExportCommand(),
                                                 HistoryCommand(),

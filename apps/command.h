@@ -32,6 +32,8 @@ struct Command {
   std::vector<CommandFlag> flags;
   int (*run)(const std::vector<std::string>& files);  // gives the exit status
   std::vector<CommandExample> examples = {};
+  std::vector<std::string_view> first_words =
+      {};  // that the first argument may be, if it is no file
 
   const CommandFlag* FindFlag(std::string_view flag) const;  // nullptr if it takes none such
 };

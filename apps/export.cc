@@ -93,32 +93,37 @@ std::string_view Description() {
   return text;
 }
 
+std::vector<std::string_view> ExportFormatNames() {
+  std::vector<std::string_view> names;
+  for (const ExportFormat& format : ExportFormats()) names.push_back(format.name);
+  return names;
+}
+
 }  // namespace
 
 Command ExportCommand() {
-  return {
-      "export",
-      "a calibration for other programs",
-      "FORMAT RESULT.json",
-      2,
-      2,
-      Description(),
-      {{"out", true, "DIR", "The files go to DIR."},
-       {"dataset"},
-       {"world_frame"},
-       {"base_frame"},
-       {"platform_frame"},
-       {"tool_frame"},
-       {"config"},
-       {"quiet"},
-       {"force"}},
-      &RunExport,
-      {{"hexcal export urdf out/neurobot/result.json --base_frame=hexapod --out=out/urdf",
-        "As fixed joints, the robot's base being called hexapod."},
-       {"hexcal export tum out/neurobot/result.json --dataset=examples/neurobot/dataset.yaml "
-        "--out=out/tum",
-        "Measured and predicted poses, for evo."}},
-  };
+  return {"export",
+          "a calibration for other programs",
+          "FORMAT RESULT.json",
+          2,
+          2,
+          Description(),
+          {{"out", true, "DIR", "The files go to DIR."},
+           {"dataset"},
+           {"world_frame"},
+           {"base_frame"},
+           {"platform_frame"},
+           {"tool_frame"},
+           {"config"},
+           {"quiet"},
+           {"force"}},
+          &RunExport,
+          {{"hexcal export urdf out/neurobot/result.json --base_frame=hexapod --out=out/urdf",
+            "As fixed joints, the robot's base being called hexapod."},
+           {"hexcal export tum out/neurobot/result.json --dataset=examples/neurobot/dataset.yaml "
+            "--out=out/tum",
+            "Measured and predicted poses, for evo."}},
+          ExportFormatNames()};
 }
 
 }  // namespace hexcal

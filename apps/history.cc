@@ -169,7 +169,7 @@ Command HistoryCommand() {
         "hexcal history list all.sqlite",
         "Keeps a calibration, and lists what is kept."},
        {"hexcal history trend all.sqlite", "Has anything drifted, against its uncertainty?"}},
-  };
+      {"list", "show", "trend", "verify"}};
 }
 
 }  // namespace hexcal

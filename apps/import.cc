@@ -190,6 +190,13 @@ std::string_view Description() {
   return text;
 }
 
+std::vector<std::string_view> ImportFormatNames() {
+  std::vector<std::string_view> names;
+  for (const ImportFormat& format : ImportFormats())
+    if (format.read_recording != nullptr) names.push_back(format.name);
+  return names;
+}
+
 }  // namespace
 
 Command ImportCommand() {
@@ -231,7 +238,7 @@ Command ImportCommand() {
       {{"hexcal import ndi_csv examples/ndi-and-pi/tracker.csv "
         "--robot=examples/ndi-and-pi/hexapod.dat --base=0x0A --tool=0x0B --pair=rows --out=bench",
         "A tracker's file and a robot's, row by row, to bench/dataset.yaml."}},
-  };
+      ImportFormatNames()};
 }
 
 }  // namespace hexcal

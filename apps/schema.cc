@@ -61,6 +61,12 @@ std::string_view SchemaDescription() {
   return text;
 }
 
+std::vector<std::string_view> SchemaNames() {
+  std::vector<std::string_view> names;
+  for (const SchemaInfo& info : Schemas()) names.push_back(info.name);
+  return names;
+}
+
 }  // namespace
 
 Command SchemaCommand() {
@@ -73,7 +79,8 @@ Command SchemaCommand() {
           {},
           &RunSchema,
           {{"hexcal schema dataset > dataset.schema.json",
-            "For an editor that checks YAML while it is written."}}};
+            "For an editor that checks YAML while it is written."}},
+          SchemaNames()};
 }
 
 }  // namespace hexcal
