@@ -134,6 +134,21 @@ measurement:
   noise: {position: 0.001, orientation: 0.001}
 )";
 
+constexpr const char* kStudy = R"(format: hexcal/batch/1
+name: desk-top
+study:
+  draws: 10
+  seed: 1
+  records: 6
+  scenarios:
+    - {name: sixty, dataset: plan.yaml, truth: truth.yaml, test: plan.yaml, noise: [0.5, 1], poses: [3], effects: [0, 1],
+       noise_known: true}
+estimators:
+  - {name: mine, method: nonlinear, settings: {iterations: 30}}
+  - {name: what, method: discover, settings: {bootstraps: 199}}
+  - shah
+)";
+
 constexpr const char* kModelHead = R"(format: hexcal/model/1
 dataset: bench
 world_from_base: {xyz: [0.3, -0.2, 0.1], quaternion: [1, 0, 0, 0]}
@@ -221,6 +236,7 @@ std::vector<std::string> ModelSamples() {
 
 std::vector<std::string> RequirementSamples() { return {kRequirement, kPivotRequirement}; }
 std::vector<std::string> ColumnSamples() { return {kColumns}; }
+std::vector<std::string> StudySamples() { return {kStudy}; }
 std::vector<std::string> PivotingSamples() { return {kPivotingMarkers, kPivotingPoses}; }
 
 std::vector<std::pair<std::string, std::string>> SampleTables() {
@@ -229,6 +245,8 @@ std::vector<std::pair<std::string, std::string>> SampleTables() {
            "1,0,0,200,0,0,0,0,20,1,0,0,0,1,40\n2,1,0,200,0,1,0,60,21,1,0,0,0,-1,41\n"},
           {"measured.csv",
            "pose,x,y,z,rx,ry,rz\n1,0,0,0.1,0,0,0\n2,0,0.01,0.1,0,0.1,0\n3,0.01,0,0.1,0.1,0,0\n"},
+          {"plan.yaml", kPoses},
+          {"truth.yaml", kModelHead},
           {"pivoting.csv", PivotingTable()},
           {"pivot.json", kPivotFile},
           {"legs.csv",
@@ -239,6 +257,8 @@ std::vector<std::pair<std::string, std::string>> SampleTables() {
 const std::vector<const char*> kBeyondSchemas = {
     // Tables and files.
     "no file ",
+    "found no file,",
+    "expected a whole number from 3 to 3",  // as many poses as the dataset has
     "which is not a file",
     "leaves the dataset's folder",
     "leaves the requirement file's folder",
@@ -272,7 +292,9 @@ const std::vector<const char*> kBeyondSchemas = {
     "a point beyond any machine",
     "go with --solver=nonlinear only",
     "again (it is named at",
+    "again, expected a name of its own",
     // Numbers as names.
+    "letters, digits, spaces, '.', '-' and '_'",
     "letters, digits, '.', '-' and '_', the first a letter or digit",
     "letters, digits, '.', '_' and '-' only",
 };

@@ -13,6 +13,7 @@ std::vector<std::string> ModelSamples();  // with every kind of effect
 std::vector<std::string> RequirementSamples();
 std::vector<std::string> ColumnSamples();
 std::vector<std::string> PivotingSamples();
+std::vector<std::string> StudySamples();
 
 // The tables that the datasets name, (name, content).
 std::vector<std::pair<std::string, std::string>> SampleTables();
