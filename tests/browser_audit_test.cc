@@ -12,6 +12,7 @@
 #include "report/html/assets.h"
 #include "testing/audits.h"
 #include "testing/browser.h"
+#include "testing/histories.h"
 
 namespace hexcal {
 namespace {
@@ -64,7 +65,15 @@ TEST(AuditInBrowser, IsDrawnSaysWhatItsJsonSaysAndItsNamesAreOnlyNames) {
   RunRecord record;
   record.version = record.started_utc = hostile;
   record.settings = {{hostile, hostile}};
-  const AuditIdentity identity = {{{hostile, "00"}}, "11"};
+  AuditIdentity identity = {{{hostile, "00"}}, "11"};
+  HistoryRecord kept = testing::AnyRecord(hostile, 1);
+  kept.author = {hostile, hostile, hostile};
+  kept.version = kept.written = kept.solver = hostile;
+  kept.effects = {hostile};
+  const testing::TemporaryFolder folder;
+  testing::Append(folder.Path("h.sqlite"), kept);
+  kept.readings_sha256 = hostile;
+  identity.log = MakeChangeLog(hostile, PendingRecord(folder.Path("h.sqlite"), kept));
   const std::string html = AuditHtml(identity, record, audit);
   // The libraries stand behind the page and have tags in their texts.
   const std::string dom = Before(browser.Dom(html), "plotly.js (cartesian");
@@ -74,7 +83,8 @@ TEST(AuditInBrowser, IsDrawnSaysWhatItsJsonSaysAndItsNamesAreOnlyNames) {
   EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), pictures);
   const auto json = nlohmann::json::parse(AuditJson(identity, audit));
   EXPECT_THAT(dom,
-              AllOf(HasSubstr("id=\"verdict\"><strong>" + json["verdict"].get<std::string>()),
+              AllOf(HasSubstr(identity.log->mark.head),
+                    HasSubstr("id=\"verdict\"><strong>" + json["verdict"].get<std::string>()),
                     HasSubstr("<title>Accuracy audit: neurobot</title>"),
                     Not(HasSubstr("<img")),
                     HasSubstr("&lt;img")));

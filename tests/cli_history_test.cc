@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "report/digest.h"
 #include "testing/run_program.h"
 #include "testing/temporary_folder.h"
 
@@ -79,7 +80,15 @@ TEST_F(CliHistory, KeepsWhatWasCalibratedByWhom) {
   EXPECT_EQ(record["covariance"], result["covariance"]);
   EXPECT_EQ(record["world_from_base"]["xyz"], result["world_from_base"]["xyz"]);
   EXPECT_EQ(record["platform_from_tool"]["quaternion"], result["platform_from_tool"]["quaternion"]);
-  EXPECT_EQ(record["inputs"].size(), 3u);
+  ASSERT_EQ(record["inputs"].size(), 3u);
+  EXPECT_EQ(record["inputs"][0]["sha256"], HashFiles({kExample})[0].sha256);
+  EXPECT_EQ(record["readings_sha256"], record["inputs"][2]["sha256"]);
+  EXPECT_EQ(record["result_sha256"], Sha256(folder.Read("out/neurobot/result.json")));
+  // The same readings twice are one measurement.
+  const Json trend = Ask({"trend", "h.sqlite"})["datasets"][0];
+  EXPECT_FALSE(trend["records"][1]["used"].get<bool>());
+  EXPECT_EQ(trend["records"][1]["same_readings_as"], 1);
+  EXPECT_EQ(trend["in_control"], 1);
   EXPECT_EQ(record["settings"]["solver"], "nonlinear");
   EXPECT_THAT(Run({"history", "list", "h.sqlite"}).out,
               AllOf(HasSubstr("neurobot"), HasSubstr(head.substr(0, 12)), HasSubstr("<b>Body")));

@@ -325,6 +325,46 @@ TEST(History, AHeadFindsAForger) {
   EXPECT_FALSE(Check(forged, head).is_intact());
 }
 
+// One record written anew with its own hash: the next one, which has the old hash, tells; and where
+// there is none, what the record says of the one before.
+TEST(History, FindsARecordThatWasWrittenAnewWithItsHash) {
+  const TemporaryFolder folder;
+  const std::string path = Make(folder, 3);
+  const std::string original = folder.Read("h.sqlite");
+  const std::vector<StoredRecord> rows = ReadHistory(path);
+  const auto write_anew = [&](const HistoryRecord& record) {
+    const std::string text = CanonicalText(record);
+    folder.Write("h.sqlite", original);
+    ASSERT_EQ(Intruder(path).TryWithoutTriggers(
+                  "UPDATE record SET text = " + Quoted(text) + ", hash = '" + Sha256(text) +
+                  "' WHERE number = " + std::to_string(record.number)),
+              SQLITE_OK);
+  };
+  HistoryRecord second = *rows[1].record;
+  second.poses += 1;
+  write_anew(second);
+  HistoryCheck check = Check(path);
+  ASSERT_EQ(check.problems.size(), 1u);
+  EXPECT_EQ(check.problems[0].number, 3);
+  EXPECT_THAT(check.problems[0].what, HasSubstr("does not follow the record before it"));
+  HistoryRecord third = *rows[2].record;
+  third.previous = rows[0].hash;
+  write_anew(third);
+  check = Check(path);
+  ASSERT_EQ(check.problems.size(), 1u);
+  EXPECT_THAT(check.problems[0].what, HasSubstr("column previous"));
+}
+
+TEST(History, SaysWhichRecordIsMissing) {
+  const TemporaryFolder folder;
+  const std::string path = Make(folder, 4);
+  ASSERT_EQ(Intruder(path).TryWithoutTriggers("DELETE FROM record WHERE number = 2"), SQLITE_OK);
+  const HistoryCheck check = Check(path);
+  ASSERT_EQ(check.problems.size(), 2u);
+  EXPECT_EQ(check.problems[0].number, 3);
+  EXPECT_EQ(check.problems[0].what, "found where record 2 should be");
+}
+
 TEST(History, IsNotAppendedToWhereItsEndWasChanged) {
   const TemporaryFolder folder;
   const std::string path = Make(folder, 2);
@@ -403,11 +443,20 @@ TEST(History, TwoProcessesAppendAtOnce) {
   const std::string path = folder.Path("h.sqlite");
   constexpr int kEach = 40;
   std::vector<pid_t> children;
+  int start[2];  // closed: both begin
+  ASSERT_EQ(pipe(start), 0);
   for (int child = 0; child < 2; ++child) {
     const pid_t pid = fork();
     if (pid == 0) {
       try {
-        for (int i = 0; i < kEach; ++i) Append(path, AnyRecord(child == 0 ? "a" : "b", i));
+        close(start[1]);
+        char none;
+        if (read(start[0], &none, 1) != 0) _exit(1);
+        for (int i = 0; i < kEach; ++i) {
+          PendingRecord pending(path, AnyRecord(child == 0 ? "a" : "b", i));
+          usleep(500);  // as results are written meanwhile
+          pending.Commit();
+        }
       } catch (const std::exception&) {
         _exit(1);
       }
@@ -415,6 +464,8 @@ TEST(History, TwoProcessesAppendAtOnce) {
     }
     children.push_back(pid);
   }
+  close(start[0]);
+  close(start[1]);
   for (const pid_t child : children) {
     int status = -1;
     ASSERT_EQ(waitpid(child, &status, 0), child);

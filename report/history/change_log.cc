@@ -59,7 +59,7 @@ void AddChangeLog(const ChangeLog& log, HtmlPage* page) {
                       {"by"},
                       {"with"},
                       {"way"},
-                      {"largest change since the one before"},
+                      {"largest change"},
                       {"p of all 12", true},
                       {"control chart"}},
                      {}};
@@ -77,7 +77,8 @@ void AddChangeLog(const ChangeLog& log, HtmlPage* page) {
   }
   page->Table(table);
   page->Note(
-      "The records of this dataset, the last ten at most. A record holds the hash of the one "
+      "The records of this dataset, the last ten at most; changes are since the one before. A "
+      "record holds the hash of the one "
       "before it: 'hexcal history verify FILE --head=HASH' finds whether any of them, up to this "
       "one, was changed, removed, inserted or reordered since this page was written. Control "
       "chart: each record against those before it that were in control (Shewhart's limits and "

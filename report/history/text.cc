@@ -24,8 +24,8 @@ std::string Plain(std::string_view text) {
 std::string UnitOf(int parameter) { return kParameters[parameter].is_angle ? "mrad" : "mm"; }
 
 std::string ChartText(const DatasetTrend& trend) {
-  std::string text = fmt::format(
-      "  {:<7} {:<20}  {:>9}  {:>9}  {:>9}  {}\n", "record", "when", "T²", "limit", "p", "");
+  std::string text =
+      fmt::format("  {:<7} {:<20}  {:>9}  {:>9}  {:>9}\n", "record", "when", "T²", "limit", "p");
   for (std::size_t i = 0; i < trend.records.size(); ++i) {
     const TrendPoint& point = trend.trend.points[i];
     const auto number = [&](double value) {
@@ -49,7 +49,7 @@ std::string ParametersText(const DatasetTrend& trend) {
   for (std::size_t i = 0; i < all.points.size(); ++i)
     if (all.points[i].is_used) last = &all.points[i], known = &trend.records[i].known;
   if (last == nullptr || !last->step) return "";
-  std::string text = fmt::format("\n  {:<9} {:>16} {:>10} {:>12} {:>12} {:>10}  {:>10}\n",
+  std::string text = fmt::format("\n  {:<9} {:>16} {:>10} {:>12} {:>12} {:>10} {:>20}\n",
                                  "",
                                  "since the first",
                                  "± 1 sigma",
@@ -64,7 +64,7 @@ std::string ParametersText(const DatasetTrend& trend) {
                                 1e3 * kSecondsPerDay * all.drift->rate[i],
                                 1e3 * kSecondsPerDay * all.drift->standard_deviation[i])
                   : "–";
-    text += fmt::format("  {:<9} {:>16} {:>10} {:>12} {:>12} {:>10}  {:>10}  {}\n",
+    text += fmt::format("  {:<9} {:>16} {:>10} {:>12} {:>12} {:>10} {:>20}  {}\n",
                         kParameters[i].name,
                         size(last->position[i]),
                         size(std::sqrt(known->covariance(i, i))),
