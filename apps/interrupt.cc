@@ -45,6 +45,8 @@ void LeaveIfAsked() {
 }  // namespace
 
 void CatchInterrupts() {
+  // A file that may not grow is one that cannot be written: exit status 5, not the end of all.
+  std::signal(SIGXFSZ, SIG_IGN);
   for (const int signal : {SIGINT, SIGTERM}) {
     struct sigaction action = {};
     if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN) continue;

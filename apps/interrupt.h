@@ -5,6 +5,7 @@ namespace hexcal {
 
 // From here on SIGINT and SIGTERM end the program with 128 + the signal's number (130, 143), but
 // never while a file is being written. A signal that the caller chose to ignore stays ignored.
+// A limit on the size of files (ulimit -f) makes writing fail, as a full disk does.
 void CatchInterrupts();
 
 // While one stands, an interrupt waits; it is carried out at the end. Do not nest.

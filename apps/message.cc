@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/message.h"
 
-#include <fmt/format.h>
-
 #include <cstdio>
+#include <string>
 
 #include "apps/progress.h"
 
 namespace hexcal {
+namespace {
 
-void PrintError(std::string_view text) {
+// Where stderr itself is full nobody can be told: no reason to end otherwise than one would.
+void Print(std::string_view kind, std::string_view text) {
   Progress::ClearVisible();
   std::fflush(stdout);
-  fmt::print(stderr, "hexcal: {}\n", text);
+  std::fputs(std::string("hexcal: ").append(kind).append(text).append("\n").c_str(), stderr);
 }
 
-void PrintWarning(std::string_view text) {
-  Progress::ClearVisible();
-  std::fflush(stdout);
-  fmt::print(stderr, "hexcal: warning: {}\n", text);
-}
+}  // namespace
+
+void PrintError(std::string_view text) { Print("", text); }
+
+void PrintWarning(std::string_view text) { Print("warning: ", text); }
 
 }  // namespace hexcal

@@ -13,6 +13,7 @@
 #include <locale>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "apps/command.h"
@@ -75,6 +76,9 @@ int Guarded(const std::vector<std::string>& arguments) {
   } catch (const OutputError& error) {
     PrintError(error.what());
     return kCannotWrite;
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) != 0) return kCannotWrite;  // RunMain says so
+    PrintError(fmt::format("internal error: {}", error.what()));
   } catch (const std::bad_alloc&) {
     PrintError("out of memory");
   } catch (const std::exception& error) {

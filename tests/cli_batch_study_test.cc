@@ -225,6 +225,43 @@ TEST_F(CliBatchStudy, SurvivesKills) {
   EXPECT_GE(killed_at_work, 50);
 }
 
+// Wherever there is no more room: exit status 5, an earlier result as it was, nothing half written;
+// with room again, the end is as if nothing had happened.
+TEST_F(CliBatchStudy, SaysWhereThereIsNoRoom) {
+  const auto run_with_room = [this](int kibibytes, const std::string& out) {
+    return testing::RunProgram("/bin/bash",
+                               {{"-c",
+                                 "ulimit -f " + std::to_string(kibibytes) + " && exec " +
+                                     HEXCAL_PROGRAM + " batch m.yaml --quiet --out=" + out},
+                                folder.Path("")});
+  };
+  ASSERT_EQ(Run({"batch", "m.yaml", "--out=whole", "--quiet"}).status, 0);
+  const std::string csv = folder.Read("whole/results.csv");
+  bool was_refused = false, was_done = false;
+  for (const int kibibytes : {0, 4, 20, 80, 160, 400}) {
+    const std::string out = "out" + std::to_string(kibibytes);
+    const ProgramResult result = run_with_room(kibibytes, out);
+    EXPECT_THAT(result.status, ::testing::AnyOf(0, 5)) << kibibytes << ": " << result.err;
+    was_done = was_done || result.status == 0;
+    if (result.status == 5) {
+      was_refused = true;
+      if (kibibytes > 0) {  // else the message has no room either
+        EXPECT_THAT(result.err, StartsWith("hexcal: " + out + "/"));
+      }
+      EXPECT_FALSE(std::filesystem::exists(folder.Path(out + "/results.csv")));
+      EXPECT_EQ(Run({"batch", "m.yaml", "--quiet", "--out=" + out}).status, 0);
+    }
+    EXPECT_TRUE(folder.Read(out + "/results.csv") == csv) << kibibytes;
+    EXPECT_THAT(NamesIn(out),
+                UnorderedElementsAre("results.csv", "results.sqlite", "run.json", "summary.csv"));
+  }
+  EXPECT_TRUE(was_refused && was_done);
+  // An earlier result stays.
+  folder.Write("m.yaml", ManifestText(21));
+  EXPECT_EQ(run_with_room(20, "whole --force").status, 5);
+  EXPECT_TRUE(folder.Read("whole/results.csv") == csv);
+}
+
 TEST_F(CliBatchStudy, AnInterruptKeepsWhatWasFinished) {
   folder.Write("m.yaml", ManifestText(2000));
   const pid_t child = Start({"batch", "m.yaml", "--out=out", "--quiet", "--threads=2"});

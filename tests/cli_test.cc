@@ -225,6 +225,15 @@ TEST(Cli, LogSettingsOfTheEnvironmentLeaveNoFiles) {
 
 TEST(Cli, AFullDiskUnderStdoutIsAnErrorOfWriting) {
   EXPECT_EQ(RunHexcal({{"help"}, ".", {}, "/dev/full"}).status, 5);
+  // More than a buffer: it shows in the middle of the text.
+  const ProgramResult result = RunHexcal({{"help", "calibrate"}, ".", {}, "/dev/full"});
+  EXPECT_EQ(result.status, 5);
+  EXPECT_THAT(result.err, HasSubstr("cannot write to standard output"));
+}
+
+TEST(Cli, AFullDiskUnderStderrChangesNothing) {
+  const std::string command = std::string("exec ") + HEXCAL_PROGRAM + " calibrate nothing --out=x";
+  EXPECT_EQ(testing::RunProgram("/bin/bash", {{"-c", command + " 2>/dev/full"}}).status, 3);
 }
 
 }  // namespace
