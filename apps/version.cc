@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "config/database.h"
+
 namespace hexcal {
 
 std::string VersionText() {
@@ -22,6 +24,7 @@ std::string VersionText() {
                       NLOHMANN_JSON_VERSION_MAJOR,
                       NLOHMANN_JSON_VERSION_MINOR,
                       NLOHMANN_JSON_VERSION_PATCH);
+  text += fmt::format("SQLite {}\n", DatabaseLibraryVersion());
   text += fmt::format("yaml-cpp {}\n", YAML_CPP_VERSION);
   return text;
 }

@@ -90,6 +90,8 @@ void Database::CheckKind(const DatabaseKind& kind) {
                      fmt::format("version {}, which this hexcal knows", kind.version));
 }
 
+std::string DatabaseLibraryVersion() { return sqlite3_libversion(); }
+
 Statement::Statement(Database* database, const std::string& sql) : database_(database) {
   database->Check(sqlite3_prepare_v2(
       database->handle_, sql.c_str(), static_cast<int>(sql.size()), &handle_, nullptr));

@@ -44,6 +44,8 @@ class Database {
   sqlite3* handle_ = nullptr;
 };
 
+std::string DatabaseLibraryVersion();  // of SQLite
+
 // A prepared statement: places are bound from 1, columns are read from 0.
 class Statement {
  public:
