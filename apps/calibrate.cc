@@ -154,13 +154,15 @@ class CalibrateRun {
     record.history = entry.mark();
     job->folder.Write("model.yaml", WriteMachine(machine));
     job->folder.Write("run.json", RunJson(record));
-    if (FLAGS_report)
-      job->folder.Write(
-          "report.html",
-          CalibrateHtml(header,
-                        record,
-                        estimate,
-                        MakeScene(job->dataset, MakeObservations(job->dataset), estimate)));
+    if (FLAGS_report) {
+      const Observations observations = MakeObservations(job->dataset);
+      job->folder.Write("report.html",
+                        CalibrateHtml(header,
+                                      record,
+                                      estimate,
+                                      MakeScene(job->dataset, observations, estimate),
+                                      MakeLeftOver(job->dataset, observations, estimate)));
+    }
     job->folder.Write("result.json", result);
     entry.Append();
     if (!estimate.IsTrustworthy()) ++untrusted_;

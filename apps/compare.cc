@@ -66,12 +66,15 @@ int RunCompare(const std::vector<std::string>& files) {
   record.methods = TimesOf(comparison);
   folder.Write("compare.json", CompareJson(dataset.name, options, comparison));
   folder.Write("run.json", RunJson(record));
-  if (FLAGS_report)
+  if (FLAGS_report) {
+    const Observations observations = MakeObservations(dataset);
     folder.Write("report.html",
                  CompareHtml(dataset.name,
                              record,
                              comparison,
-                             MakeScene(dataset, MakeObservations(dataset), comparison.reference)));
+                             MakeScene(dataset, observations, comparison.reference),
+                             MakeLeftOver(dataset, observations, comparison.reference)));
+  }
   PrintNewWarnings(dataset, comparison.reference.warnings, "compare.json");
   if (FLAGS_json && !FLAGS_quiet)
     fmt::print("{}\n", CompareJsonLine(dataset.name, options, comparison));

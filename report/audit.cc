@@ -264,6 +264,7 @@ Audit MakeAudit(AuditInput input) {
     audit.sources.push_back(stated.source);
   audit.workspace = MakeWorkspace(audit.requirements.workspace, input.observations);
   audit.scene = MakeScene(input.dataset, input.observations, audit.estimate);
+  audit.left_over = MakeLeftOver(input.dataset, input.observations, audit.estimate);
   audit.global = GlobalTestOf(audit.estimate);
   audit.correlations = StrongCorrelations(audit.estimate);
   audit.bodies = BodiesOf(input.dataset, audit.estimate, audit);

@@ -11,6 +11,7 @@
 #include "report/accuracy_map.h"
 #include "report/correlation.h"
 #include "report/earlier_result.h"
+#include "report/left_over.h"
 #include "report/requirement.h"
 #include "report/result_json.h"
 #include "report/scene.h"
@@ -102,6 +103,7 @@ struct Audit {
   Estimate estimate;
   Comparison comparison;
   Scene scene;
+  LeftOver left_over;
   GlobalTest global;
   HeldOutTest held_out;
   std::vector<PoseCheck> poses;

@@ -3,6 +3,7 @@
 
 #include "report/audit_sections.h"
 #include "report/estimate_charts.h"
+#include "report/marker_charts.h"
 #include "report/quantity.h"
 #include "report/scene.h"
 
@@ -77,9 +78,10 @@ void AddGoodnessOfFit(const Audit& audit, HtmlPage* page) {
       "A good fit alone says little about the error of a point of the tool: that is in the "
       "sections "
       "on the budget and on the workspace.");
-  page->Figures(LeftOverCharts(estimate));
+  page->Figures(LeftOverCharts(estimate, audit.left_over));
   page->Figure(SceneChart(audit.scene));
   page->Figure(HistogramChart(estimate));
+  AddMarkers(audit.left_over, page);
   AddOutliers(audit, page);
   if (audit.bodies.empty()) return;
   page->Heading("What one reading of the markers is worth");

@@ -5,6 +5,7 @@
 
 #include "report/estimate_charts.h"
 #include "report/estimate_sections.h"
+#include "report/marker_charts.h"
 #include "report/quantity.h"
 
 namespace hexcal {
@@ -30,6 +31,7 @@ void AddVerdict(const Estimate& estimate, HtmlPage* page) {
 void AddFit(const ResultHeader& header,
             const Estimate& estimate,
             const Scene& scene,
+            const LeftOver& left,
             HtmlPage* page) {
   page->Section("What is left over");
   page->Paragraph(
@@ -41,10 +43,11 @@ void AddFit(const ResultHeader& header,
                   SizeText(estimate.noise.position, "m"),
                   SizeText(estimate.noise.orientation, "rad"),
                   estimate.noise.estimated ? "estimated from it" : "as stated"));
-  page->Figures(LeftOverCharts(estimate));
+  page->Figures(LeftOverCharts(estimate, left));
   page->Figure(SceneChart(scene));
   page->Figures(
       {HistogramChart(estimate), ConvergenceChart(estimate.iterations, header.solver + " solver")});
+  AddMarkers(left, page);
   if (estimate.outliers.empty()) return;
   page->Heading("Poses that the others contradict");
   HtmlTable table = {{{"pose"}, {"why"}, {"p", true}, {"used"}}, {}};
@@ -61,14 +64,15 @@ void AddFit(const ResultHeader& header,
 std::string CalibrateHtml(const ResultHeader& header,
                           const RunRecord& record,
                           const Estimate& estimate,
-                          const Scene& scene) {
+                          const Scene& scene,
+                          const LeftOver& left) {
   HtmlPage page("calibrate",
                 "Calibration: " + header.dataset,
                 fmt::format("{} poses · where base and tool are, and how sure that is",
                             estimate.poses.size()));
   AddVerdict(estimate, &page);
   AddMounts(estimate, &page);
-  AddFit(header, estimate, scene, &page);
+  AddFit(header, estimate, scene, left, &page);
   AddReproduction(record, estimate.warnings, "result.json and model.yaml", &page);
   return page.Html();
 }

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "report/left_over.h"
 #include "report/result_json.h"
 #include "report/run_record.h"
 #include "report/scene.h"
@@ -13,6 +14,7 @@ namespace hexcal {
 std::string CalibrateHtml(const ResultHeader& header,
                           const RunRecord& record,
                           const Estimate& estimate,
-                          const Scene& scene);
+                          const Scene& scene,
+                          const LeftOver& left);
 
 }  // namespace hexcal

@@ -7,6 +7,7 @@
 #include "report/comparison_sections.h"
 #include "report/estimate_charts.h"
 #include "report/estimate_sections.h"
+#include "report/marker_charts.h"
 #include "report/quantity.h"
 
 namespace hexcal {
@@ -71,7 +72,8 @@ void AddMaps(const Comparison& comparison, HtmlPage* page) {
 std::string CompareHtml(const std::string& dataset,
                         const RunRecord& record,
                         const Comparison& comparison,
-                        const Scene& scene) {
+                        const Scene& scene,
+                        const LeftOver& left) {
   const Estimate& reference = comparison.reference;
   const Certificate& certificate = comparison.certificate;
   HtmlPage page("compare",
@@ -92,9 +94,10 @@ std::string CompareHtml(const std::string& dataset,
   AddPropagation(comparison.propagation, &page);
   AddMounts(reference, &page);
   page.Section("What it leaves over");
-  page.Figures(LeftOverCharts(reference));
+  page.Figures(LeftOverCharts(reference, left));
   page.Figure(SceneChart(scene));
   page.Figure(HistogramChart(reference));
+  AddMarkers(left, &page);
   AddReproduction(record, reference.warnings, "compare.json", &page);
   return page.Html();
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "estimator/compare.h"
+#include "report/left_over.h"
 #include "report/run_record.h"
 #include "report/scene.h"
 
@@ -14,6 +15,7 @@ namespace hexcal {
 std::string CompareHtml(const std::string& dataset,
                         const RunRecord& record,
                         const Comparison& comparison,
-                        const Scene& scene);
+                        const Scene& scene,
+                        const LeftOver& left);
 
 }  // namespace hexcal

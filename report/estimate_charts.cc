@@ -37,31 +37,71 @@ Drawn DrawnOf(const std::vector<Pose>& poses) {
   return drawn;
 }
 
-Chart AxesChart(const Estimate& estimate, int first, const char* title, const char* unit) {
+// What residuals are shown against.
+struct Abscissa {
+  std::string words;           // "in order of visit"
+  std::string title;           // of the axis
+  const char* look;            // what a structure along it would mean
+  std::vector<double> values;  // of every pose
+};
+
+Abscissa OrderAbscissa(const Estimate& estimate) {
+  Abscissa order{"in order of visit", "order of visit", "trends and jumps", {}};
+  for (std::size_t i = 0; i < estimate.poses.size(); ++i)
+    order.values.push_back(static_cast<double>(i + 1));
+  return order;
+}
+
+// From the first pose on, in a unit that makes short numbers.
+Abscissa TimeAbscissa(const std::vector<double>& times) {
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  const double span = *last - *first;
+  const double unit = span > 10800.0 ? 3600.0 : span > 300.0 ? 60.0 : 1.0;
+  Abscissa time{"over time",
+                fmt::format("time, {}",
+                            unit == 1.0    ? "s"
+                            : unit == 60.0 ? "min"
+                                           : "h"),
+                "drifts (heat, a tracker or base that settles)",
+                {}};
+  for (const double t : times) time.values.push_back((t - *first) / unit);
+  return time;
+}
+
+Chart AxesChart(const Estimate& estimate,
+                const Abscissa& against,
+                int first,
+                const char* title,
+                const char* unit) {
   constexpr const char* kAxes[6] = {"x", "y", "z", "about x", "about y", "about z"};
   Chart chart;
-  chart.title = fmt::format("{} residuals in order of visit", title);
+  chart.title = fmt::format("{} residuals {}", title, against.words);
   chart.shows = fmt::format(
-      "measured minus predicted along each axis of the tool ({}), pose by pose (hover for the "
+      "measured minus predicted along each axis of the tool ({}), pose by pose, {} (hover for the "
       "pose's name).",
-      unit);
-  chart.good =
-      "a structureless band about zero; waves, trends, jumps or single far points mean that the "
-      "model misses something (hexcal discover looks for it).";
+      unit,
+      against.words);
+  chart.good = fmt::format(
+      "a structureless band about zero; waves, {}, or single far points mean that the model misses "
+      "something (hexcal discover looks for it).",
+      against.look);
   const Drawn drawn = DrawnOf(estimate.poses);
   const std::size_t stride = StrideOf(estimate.poses.size());
   chart.shows += drawn.note;
-  chart.table = {{{"pose"}}, {}};
+  chart.table = {{{"pose"}, {against.title, true}}, {}};
+  Json places = Json::array();
+  for (std::size_t i = 0; i < estimate.poses.size(); i += stride)
+    places.push_back(against.values[i]);
   for (int k = first; k < first + 3; ++k) {
     Json values = Json::array();
     for (std::size_t i = 0; i < estimate.poses.size(); i += stride)
       values.push_back(kMilli * estimate.poses[i].residual[k]);
     const int panel = k - first + 1;
-    Json trace = DotTrace(title, drawn.order, values, drawn.labels, false, panel);
+    Json trace = DotTrace(title, places, values, drawn.labels, false, panel);
     trace["showlegend"] = false;
     chart.data.push_back(trace);
     chart.layout[AxisKey("yaxis", panel)] = Axis(fmt::format("{}, {}", kAxes[k], unit), false);
-    Json x = OpenAxis(panel == 3 ? "order of visit" : "");
+    Json x = OpenAxis(panel == 3 ? against.title : "");
     if (panel < 3) x["matches"] = "x3", x["showticklabels"] = false;
     chart.layout[AxisKey("xaxis", panel)] = x;
     chart.table.columns.push_back({fmt::format("{}, {}", kAxes[k], unit), true});
@@ -70,7 +110,7 @@ Chart AxesChart(const Estimate& estimate, int first, const char* title, const ch
   chart.layout["height"] = 500;
   for (std::size_t i = 0; i < estimate.poses.size(); i += stride) {
     const PoseResult& pose = estimate.poses[i];
-    std::vector<std::string> row = {pose.label};
+    std::vector<std::string> row = {pose.label, fmt::format("{:.5g}", against.values[i])};
     for (int k = first; k < first + 3; ++k)
       row.push_back(fmt::format("{:.4f}", kMilli * pose.residual[k]));
     chart.table.rows.push_back(row);
@@ -80,8 +120,15 @@ Chart AxesChart(const Estimate& estimate, int first, const char* title, const ch
 
 }  // namespace
 
-std::vector<Chart> LeftOverCharts(const Estimate& estimate) {
-  return {AxesChart(estimate, 0, "Position", "mm"), AxesChart(estimate, 3, "Orientation", "mrad")};
+std::vector<Chart> LeftOverCharts(const Estimate& estimate, const LeftOver& left) {
+  std::vector<Abscissa> abscissas = {OrderAbscissa(estimate)};
+  if (!left.times.empty()) abscissas.push_back(TimeAbscissa(left.times));
+  std::vector<Chart> charts;
+  for (const Abscissa& against : abscissas) {
+    charts.push_back(AxesChart(estimate, against, 0, "Position", "mm"));
+    charts.push_back(AxesChart(estimate, against, 3, "Orientation", "mrad"));
+  }
+  return charts;
 }
 
 Chart HistogramChart(const Estimate& estimate) {

@@ -6,13 +6,15 @@
 #include "estimator/estimate.h"
 #include "estimator/pose_check.h"
 #include "report/html/page.h"
+#include "report/left_over.h"
 
 namespace hexcal {
 
 // Pictures of a calibration, each with the table of its numbers. mm and mrad.
 
-// What is left over: position, then orientation, each axis against the order of visit.
-std::vector<Chart> LeftOverCharts(const Estimate& estimate);
+// What is left over: position, then orientation, each axis against the order of visit, and against
+// time where that was recorded.
+std::vector<Chart> LeftOverCharts(const Estimate& estimate, const LeftOver& left);
 
 // All of it in standard deviations of the noise beside the normal distribution.
 Chart HistogramChart(const Estimate& estimate);

@@ -98,6 +98,11 @@ TEST(CalibrationInBrowser, IsDrawnAsItsComparisonIs) {
   if (!browser.IsThere()) GTEST_SKIP() << "no Chromium: scripts/install_dependencies test";
   testing::AuditedExample example = testing::AuditExample();
   const std::string hostile = "<img src=x onerror=\"document.title='no'\">";
+  LeftOver left;
+  left.markers = {{hostile, 2, 1e-4, 2e-4, {{1e-4, 0, 0}, {0, 1e-4, 0}}, {0, 1}},
+                  {"tool/t1", 1, 1e-4, 0.0, {{0, 0, 1e-4}}, {1}}};
+  for (std::size_t i = 0; i < example.estimate.poses.size(); ++i)
+    left.times.push_back(100.0 * static_cast<double>(i));
   for (PoseResult& pose : example.estimate.poses) pose.label = hostile;
   for (PoseResult& pose : example.comparison.reference.poses) pose.label = hostile;
   for (Observation& o : example.observations.items) o.label = hostile;
@@ -107,14 +112,17 @@ TEST(CalibrationInBrowser, IsDrawnAsItsComparisonIs) {
   record.inputs = {hostile};
   const Scene scene = MakeScene(example.dataset, example.observations, example.estimate);
   for (const auto& [html, pictures] :
-       {std::pair{CalibrateHtml({"demo", "nonlinear", "pose", ""}, record, example.estimate, scene),
-                  6},
-        std::pair{CompareHtml("demo", record, example.comparison, scene), 8}}) {
+       {std::pair{
+            CalibrateHtml({"demo", "nonlinear", "pose", ""}, record, example.estimate, scene, left),
+            10},
+        std::pair{CompareHtml("demo", record, example.comparison, scene, {}), 8}}) {
     const std::string dom = Before(browser.Dom(html), "plotly.js (cartesian");
     ExpectQuiet(browser.Console());
     EXPECT_EQ(Count(html, "class=\"plot\""), FlatCharts().empty() ? 0 : pictures);
     EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), FlatCharts().empty() ? 0 : pictures);
     EXPECT_THAT(dom, AllOf(HasSubstr(": demo</title>"), Not(HasSubstr("<img"))));
+    EXPECT_EQ(Count(dom, "data-complete="), FlatCharts().empty() ? 0 : 1);
+    EXPECT_LT(html.size(), std::size_t{8} << 20);
   }
 }
 

@@ -9,6 +9,8 @@
 namespace hexcal {
 namespace {
 
+constexpr int kPlotHeight = 450;  // px, where the layout states none: the chart library's own
+
 bool HasCharts() { return !FlatCharts().empty() && !SpaceCharts().empty(); }
 
 std::string TableHtml(const HtmlTable& table) {
@@ -36,6 +38,11 @@ std::string_view ClassOf(Tone tone) {
 
 std::string Style(std::string_view text) { return fmt::format("<style>{}</style>\n", text); }
 std::string Script(std::string_view text) { return fmt::format("<script>{}</script>\n", text); }
+
+// A script that assets/page.js runs when a picture needs it.
+std::string LaterScript(std::string_view id, std::string_view text) {
+  return fmt::format("<script type=\"text/plain\" id=\"{}\">{}</script>\n", id, text);
+}
 
 }  // namespace
 
@@ -109,10 +116,11 @@ void HtmlPage::Figure(const Chart& chart) {
     (chart.is_in_space ? has_space_ : has_flat_) = true;
     body_ += fmt::format(
         "<div class=\"plot\" role=\"img\" aria-label=\"{}\" data-spec=\"spec-{}\" "
-        "data-library=\"{}\"></div>\n",
+        "data-library=\"{}\" data-height=\"{}\"></div>\n",
         EscapeHtml(chart.title),
         number,
-        chart.is_in_space ? "3d" : "2d");
+        chart.is_in_space ? "3d" : "2d",
+        chart.layout.value("height", kPlotHeight));
     body_ += fmt::format("<script type=\"application/json\" id=\"spec-{}\">{}</script>\n",
                          number,
                          JsonForScript({{"data", chart.data}, {"layout", chart.layout}}));
@@ -167,7 +175,9 @@ std::string HtmlPage::Html() const {
         "<noscript><p class=\"note\">Scripts are off: the numbers of each picture are in the table "
         "below it.</p></noscript>\n";
   html += body_;
-  for (const std::string_view script : scripts) html += Script(script);
+  if (has_flat_) html += LaterScript("library-2d", FlatCharts());
+  if (has_space_) html += LaterScript("library-3d", SpaceCharts());
+  if (!scripts.empty()) html += Script(PageScript());
   return html + "</body>\n</html>\n";
 }
 

@@ -55,8 +55,22 @@
     return full;
   }
 
+  // The chart libraries stand in the page as text and are run when the first picture needs them:
+  // they are most of what opening would cost.
+  function libraryOf(plot) {
+    const name = plot.dataset.library === "3d" ? "hexcal3d" : "hexcal2d";
+    const text = document.getElementById("library-" + plot.dataset.library);
+    if (!window[name] && text) {
+      const script = document.createElement("script");
+      script.textContent = text.textContent;
+      document.body.appendChild(script);
+      script.remove();
+    }
+    return window[name];
+  }
+
   function draw(plot) {
-    const library = plot.dataset.library === "3d" ? window.hexcal3d : window.hexcal2d;
+    const library = libraryOf(plot);
     if (!library) return;
     const spec = JSON.parse(document.getElementById(plot.dataset.spec).textContent);
     const colours = kColours[darkLook.matches && !printing ? "dark" : "light"];
@@ -67,10 +81,46 @@
     });
   }
 
-  function drawAll() { document.querySelectorAll(".plot").forEach(draw); }
+  const plots = Array.from(document.querySelectorAll(".plot"));
+  const waiting = new Set(plots);  // not drawn yet
 
-  darkLook.addEventListener("change", drawAll);
-  window.addEventListener("beforeprint", function () { printing = true; drawAll(); });
-  window.addEventListener("afterprint", function () { printing = false; drawAll(); });
-  drawAll();
+  function show(plot) { if (waiting.delete(plot)) draw(plot); }
+  function redraw() { plots.filter(function (plot) { return !waiting.has(plot); }).forEach(draw); }
+
+  // Milliseconds from the start of the navigation, for whoever measures.
+  function mark(name) { document.documentElement.dataset[name] = Math.round(performance.now()); }
+
+  // What is out of sight is drawn when there is nothing else to do.
+  function showRest() {
+    if (waiting.size === 0) return mark("complete");
+    show(waiting.values().next().value);
+    later(showRest);
+  }
+  function later(work) {
+    if (window.requestIdleCallback) window.requestIdleCallback(work, { timeout: 1000 });
+    else window.setTimeout(work, 50);
+  }
+
+  function isInSight(plot) {
+    const box = plot.getBoundingClientRect();
+    return box.bottom > 0 && box.top < window.innerHeight;
+  }
+  plots.forEach(function (plot) { plot.style.minHeight = plot.dataset.height + "px"; });
+  plots.filter(isInSight).forEach(show);
+  mark("open");
+  later(showRest);
+  // Whoever scrolls faster than that does not wait.
+  const watch = new IntersectionObserver(function (entries) {
+    entries.filter(function (entry) { return entry.isIntersecting; })
+      .forEach(function (entry) { show(entry.target); });
+  });
+  Array.from(waiting).forEach(function (plot) { watch.observe(plot); });
+
+  darkLook.addEventListener("change", redraw);
+  window.addEventListener("beforeprint", function () {
+    printing = true;
+    redraw();
+    Array.from(waiting).forEach(show);
+  });
+  window.addEventListener("afterprint", function () { printing = false; redraw(); });
 })();
