@@ -187,6 +187,15 @@ TEST_F(CliHistory, ABadHistoryShowsBeforeAnythingIsComputed) {
   EXPECT_FALSE(std::filesystem::exists(folder.Path("out")));
 }
 
+// The results would replace it.
+TEST_F(CliHistory, CannotBeOneOfTheResults) {
+  const ProgramResult result =
+      Run({"calibrate", kExample, "--out=out", "--history=out/neurobot/result.json", "--quiet"});
+  EXPECT_EQ(result.status, 5);
+  EXPECT_THAT(result.err, HasSubstr("out/neurobot/result.json: "));
+  EXPECT_TRUE(Json::accept(folder.Read("out/neurobot/result.json")));
+}
+
 TEST_F(CliHistory, SeveralDatasetsGoToOneHistory) {
   ASSERT_EQ(
       Run({"calibrate", kExample, kOther, "--out=out", "--history=out/h.sqlite", "--quiet"}).status,

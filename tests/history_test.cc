@@ -408,6 +408,15 @@ TEST(History, SaysWhereItCannotBeWritten) {
   EXPECT_TRUE(Check(folder.Path("new/folder/h.sqlite")).is_intact());
 }
 
+TEST(History, SaysThatAnotherFileTookItsPlace) {
+  const TemporaryFolder folder;
+  const std::string path = Make(folder, 1);
+  PendingRecord pending(path, AnyRecord("d", 2));
+  unlink(path.c_str());
+  folder.Write("h.sqlite", "the results of something else");
+  EXPECT_THROW(pending.Commit(), OutputError);
+}
+
 TEST(History, HostileTextsAreOnlyTexts) {
   const TemporaryFolder folder;
   const std::string path = folder.Path("h.sqlite");
