@@ -13,6 +13,7 @@
 #include "apps/history.h"
 #include "apps/import.h"
 #include "apps/init.h"
+#include "apps/man.h"
 #include "apps/pivot.h"
 #include "apps/plan.h"
 #include "apps/predict.h"
@@ -38,6 +39,7 @@ const std::vector<Command>& Commands() {
                                                 HistoryCommand(),
                                                 ImportCommand(),
                                                 InitCommand(),
+                                                ManCommand(),
                                                 PivotCommand(),
                                                 PlanCommand(),
                                                 PredictCommand(),

@@ -43,39 +43,15 @@ std::string JoinBars(const std::vector<std::string_view>& words) {
   return text;
 }
 
-// --name=VALUE, as usage and the list of flags show it.
-std::string Form(const CommandFlag& own) {
-  const FlagSpec& spec = *FindFlag(own.name);
-  if (IsSwitch(spec)) return fmt::format("--{}", own.name);
-  if (!spec.choices.empty()) return fmt::format("--{}={}", own.name, JoinBars(spec.choices));
-  return fmt::format("--{}={}", own.name, own.value.empty() ? spec.value : own.value);
-}
-
 std::string FlagHelp(const CommandFlag& own) {
-  return fmt::format("  {}\n{}", Form(own), Wrap(FlagText(own), 6));
-}
-
-// A command to be typed, cut between its words where it is long.
-std::string WrapExample(std::string_view line) {
-  std::string text, part;
-  while (!line.empty()) {
-    const std::size_t end = std::min(line.find(' '), line.size());
-    const std::string_view word = line.substr(0, end);
-    line.remove_prefix(std::min(end + 1, line.size()));
-    if (!part.empty() && part.size() + word.size() + 5 > kWidth) {
-      text += part + " \\\n";
-      part = "         ";
-    }
-    part += (part.empty() ? "      " : " ") + std::string(word);
-  }
-  return text + part + "\n";
+  return fmt::format("  {}\n{}", FlagForm(own), Wrap(FlagText(own), 6));
 }
 
 std::string ExamplesHelp(const Command& command) {
   if (command.examples.empty()) return "";
   std::string text = "\nExamples\n";
   for (const CommandExample& example : command.examples)
-    text += Wrap(example.what, 2) + WrapExample(example.line);
+    text += Wrap(example.what, 2) + WrapExample(example.line, 6);
   return text;
 }
 
@@ -88,9 +64,7 @@ std::vector<std::string_view> Groups() {
   return groups;
 }
 
-constexpr std::string_view kExitStatus = R"(
-Exit status
-  0    done
+constexpr std::string_view kExitStatus = R"(  0    done
   1    internal error
   2    wrong usage
   3    an input was refused
@@ -103,6 +77,30 @@ Exit status
 )";
 
 }  // namespace
+
+std::string_view ExitStatusText() { return kExitStatus; }
+
+std::string FlagForm(const CommandFlag& own) {
+  const FlagSpec& spec = *FindFlag(own.name);
+  if (IsSwitch(spec)) return fmt::format("--{}", own.name);
+  if (!spec.choices.empty()) return fmt::format("--{}={}", own.name, JoinBars(spec.choices));
+  return fmt::format("--{}={}", own.name, own.value.empty() ? spec.value : own.value);
+}
+
+std::string WrapExample(std::string_view line, std::size_t indent) {
+  std::string text, part;
+  while (!line.empty()) {
+    const std::size_t end = std::min(line.find(' '), line.size());
+    const std::string_view word = line.substr(0, end);
+    line.remove_prefix(std::min(end + 1, line.size()));
+    if (!part.empty() && part.size() + word.size() + 5 > kWidth) {
+      text += part + " \\\n";
+      part = std::string(indent + 3, ' ');
+    }
+    part += (part.empty() ? std::string(indent, ' ') : " ") + std::string(word);
+  }
+  return text + part + "\n";
+}
 
 std::string FlagText(const CommandFlag& own) {
   const FlagSpec& spec = *FindFlag(own.name);
@@ -120,7 +118,7 @@ std::string UsageLine(const Command& command) {
   std::string text = fmt::format("hexcal {}", command.name);
   if (!command.arguments.empty()) text += fmt::format(" {}", command.arguments);
   for (const CommandFlag& own : command.flags) {
-    if (own.required) text += " " + Form(own);
+    if (own.required) text += " " + FlagForm(own);
   }
   return command.flags.empty() ? text : text + " [flags]";
 }
@@ -149,7 +147,7 @@ std::string ProgramHelp() {
     text += fmt::format("  {:<10} {}\n", command.name, command.summary);
   text += fmt::format("  {:<10} {}\n", "help", "this text; 'hexcal help COMMAND' for one command");
   text += "\n'hexcal --version' prints the version and those of the libraries.\n";
-  return text + std::string(kExitStatus);
+  return text + "\nExit status\n" + std::string(kExitStatus);
 }
 
 }  // namespace hexcal
