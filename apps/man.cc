@@ -100,7 +100,7 @@ Command ManCommand() {
       0,
       0,
       "Prints the manual page of all commands and flags as man reads it. Installed with hexcal; "
-      "where it is not, 'man -l <(hexcal man)' shows it.",
+      "where it is not, 'hexcal man | man -l -' shows it.",
       {},
       &RunMan,
       {{"hexcal man > hexcal.1", "For a folder of man pages."}}};

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -18,16 +19,36 @@ constexpr long kBarWidth = 30;
 
 Progress* visible_progress = nullptr;
 
-std::string Bar(std::string_view label, long done, long total) {
+// 5 s, 2:05 min, 3:20 h; never "0 s" of what is still to be done.
+std::string Duration(double seconds) {
+  const long s = std::max(1L, std::lround(seconds));
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{}:{:02} min", s / 60, s % 60);
+  return fmt::format("{}:{:02} h", s / 3600, s / 60 % 60);
+}
+
+// ", 12/s, 5 s left", as the work went so far; nothing before the first is done.
+std::string Pace(long done, long total, double seconds) {
+  if (done <= 0 || done >= total || !(seconds > 0.0)) return "";
+  const double rate = static_cast<double>(done) / seconds;
+  const std::string rate_text = rate >= 1.0        ? fmt::format("{:.3g}/s", rate)
+                                : rate >= 1 / 60.0 ? fmt::format("{:.2g}/min", 60.0 * rate)
+                                                   : fmt::format("{:.2g}/h", 3600.0 * rate);
+  return fmt::format(
+      ", {}, {} left", rate_text, Duration(static_cast<double>(total - done) / rate));
+}
+
+std::string Bar(std::string_view label, long done, long total, double seconds) {
   const long filled = kBarWidth * done / total;
-  return fmt::format("\r{} [{:#<{}}{:.<{}}] {}/{}\x1b[K",
+  return fmt::format("\r{} [{:#<{}}{:.<{}}] {}/{}{}\x1b[K",
                      label.substr(0, 24),
                      "",
                      filled,
                      "",
                      kBarWidth - filled,
                      done,
-                     total);
+                     total,
+                     Pace(done, total, seconds));
 }
 
 }  // namespace
@@ -58,7 +79,7 @@ void Progress::Update(long done, long total) {
   if (!enabled_ || total <= 0) return;
   const double now = screen_.seconds();
   if (now - started_ <= kPatience || (visible_ && now - drawn_ < kRedraw)) return;
-  screen_.write(Bar(label_, std::clamp(done, 0L, total), total));
+  screen_.write(Bar(label_, std::clamp(done, 0L, total), total, now - started_));
   drawn_ = now;
   visible_ = true;
   visible_progress = this;

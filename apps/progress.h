@@ -16,8 +16,9 @@ struct ProgressScreen {
 
 ProgressScreen StandardErrorScreen();
 
-// A bar on stderr, shown on a terminal once the work has taken more than two seconds, redrawn at
-// most ten times a second and wiped at the end. To be used from one thread, one at a time.
+// A bar on stderr with the rate and the time left, as it went so far; shown on a terminal once the
+// work has taken more than two seconds, redrawn at most ten times a second and wiped at the end. To
+// be used from one thread, one at a time.
 class Progress {
  public:
   Progress(std::string label, bool quiet, ProgressScreen screen = StandardErrorScreen());

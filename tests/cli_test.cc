@@ -57,7 +57,9 @@ TEST(Cli, EveryCommandExplainsItselfAndAllItsFlags) {
     const ProgramResult result = Call({"help", name});
     EXPECT_EQ(result.status, 0);
     EXPECT_THAT(result.err, IsEmpty());
-    EXPECT_THAT(result.out, StartsWith("hexcal " + name + " "));
+    EXPECT_THAT(result.out,
+                StartsWith("hexcal " + name +
+                           (command.flags.empty() && command.arguments.empty() ? "\n" : " ")));
     for (const CommandFlag& flag : command.flags)
       EXPECT_THAT(result.out, HasSubstr("\n  --" + std::string(flag.name)));
     EXPECT_EQ(Call({name, "--help"}).out, result.out);

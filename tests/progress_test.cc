@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/progress.h"
 
+#include "apps/message.h"
+
 #include <gtest/gtest.h>
 
 #include <string>
@@ -26,7 +28,32 @@ TEST(Progress, AppearsOnlyAfterTwoSeconds) {
   EXPECT_EQ(terminal.text, "");
   terminal.now += 0.01;
   progress.Update(2, 4);
-  EXPECT_EQ(terminal.text, "\rposes [###############...............] 2/4\x1b[K");
+  EXPECT_EQ(terminal.text, "\rposes [###############...............] 2/4, 60/min, 2 s left\x1b[K");
+}
+
+// 40 of 100 in 10 s, then in 1000 s, then 1 of 100 in 1000 s.
+TEST(Progress, SaysRateAndTimeLeft) {
+  const auto shown = [](double seconds, long done) {
+    FakeTerminal terminal;
+    Progress progress("poses", false, terminal.Screen());
+    terminal.now += seconds;
+    progress.Update(done, 100);
+    return terminal.text;
+  };
+  EXPECT_NE(shown(10.0, 40).find("40/100, 4/s, 15 s left"), std::string::npos) << shown(10.0, 40);
+  EXPECT_NE(shown(1000.0, 40).find("40/100, 2.4/min, 25:00 min left"), std::string::npos);
+  EXPECT_NE(shown(1000.0, 1).find("1/100, 3.6/h, 27:30 h left"), std::string::npos);
+  EXPECT_NE(shown(10.0, 0).find("0/100\x1b"), std::string::npos);
+  EXPECT_NE(shown(10.0, 100).find("100/100\x1b"), std::string::npos);
+}
+
+TEST(Message, HasColourOnATerminalThatMayHaveIt) {
+  EXPECT_TRUE(IsColoured(true, nullptr, "xterm"));
+  EXPECT_TRUE(IsColoured(true, "", "xterm"));
+  EXPECT_FALSE(IsColoured(true, "1", "xterm"));
+  EXPECT_FALSE(IsColoured(true, nullptr, "dumb"));
+  EXPECT_FALSE(IsColoured(true, nullptr, nullptr));
+  EXPECT_FALSE(IsColoured(false, nullptr, "xterm"));
 }
 
 TEST(Progress, IsWipedAtTheEnd) {
