@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -63,6 +65,19 @@ TEST(CliExamples, EveryCommandHasSomeAndHelpShowsThem) {
       const std::string shown = "\n      " + std::string(example.line) + "\n";
       EXPECT_NE(help.find(shown), std::string::npos) << shown;
     }
+  }
+}
+
+// docs/commands.md lists every command, and names every flag.
+TEST(CliExamples, DocsNameEveryCommandAndFlag) {
+  std::ostringstream text;
+  text << std::ifstream(HEXCAL_EXAMPLES "/../docs/commands.md").rdbuf();
+  const std::string docs = text.str();
+  for (const Command& command : Commands()) {
+    const std::string name(command.name);
+    EXPECT_NE(docs.find("| `hexcal " + name), std::string::npos) << name;
+    for (const CommandFlag& flag : command.flags)
+      EXPECT_NE(docs.find("--" + std::string(flag.name)), std::string::npos) << flag.name;
   }
 }
 
