@@ -184,9 +184,11 @@ class BatchRun {
 
   int Finish(Store* store) {
     WriteCsv(folder_.PathOf("results.csv"), manifest_.batch, store);
-    if (manifest_.study != nullptr)
-      folder_.Write("summary.csv",
-                    SummaryCsv(manifest_.batch.name, Summarise(manifest_.study->study(), store)));
+    std::vector<StudySummary> summaries;
+    if (manifest_.study != nullptr) {
+      summaries = Summarise(manifest_.study->study(), store);
+      folder_.Write("summary.csv", SummaryCsv(manifest_.batch.name, summaries));
+    }
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     folder_.Write(
@@ -194,7 +196,7 @@ class BatchRun {
         RunJson(RecordOf(
             "batch", std::vector<std::string>{path_}, seconds, ThreadsFor(FLAGS_threads))));
     files_.RemoveAll();
-    return ReportBatch(manifest_, folder_.path(), store);
+    return ReportBatch(manifest_, summaries, folder_.path(), store);
   }
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 
 #include "apps/batch_columns.h"
 #include "apps/batch_files.h"
@@ -36,6 +37,10 @@ class DatasetsJob : public Job {
       outcome = {RowStatus::kFailed, SeenFromManifest(error.what()), {}};
     } catch (const UsageError& error) {
       outcome = {RowStatus::kFailed, error.what(), {}};
+    } catch (const std::bad_alloc&) {
+      throw;  // of the machine, not of the dataset
+    } catch (const std::exception& error) {
+      outcome = {RowStatus::kFailed, fmt::format("internal error: {}", error.what()), {}};
     }
     outcome.cells.insert(outcome.cells.begin(), file);
     return {outcome};

@@ -7,7 +7,6 @@
 #include "apps/flags.h"
 #include "apps/message.h"
 #include "apps/progress.h"
-#include "batch/study_summary.h"
 
 namespace hexcal {
 namespace {
@@ -44,24 +43,29 @@ void PrintCounts(const std::string& name,
   if (!FLAGS_json) fmt::print("  written to     {}\n", folder);
 }
 
-void PrintStudy(const StudyJob& job, const std::string& folder, Store* store) {
-  if (FLAGS_quiet) return;
+void PrintStudy(const std::string& name,
+                const std::vector<StudySummary>& summaries,
+                const std::string& folder) {
   Progress::ClearVisible();
-  fmt::print("{}\n  written to     {}\n",
-             SummaryTable(job.study().name, Summarise(job.study(), store)),
-             folder);
+  fmt::print("{}\n  written to     {}\n", SummaryTable(name, summaries), folder);
 }
 
 }  // namespace
 
-int ReportBatch(const Manifest& manifest, const std::string& folder, Store* store) {
+int ReportBatch(const Manifest& manifest,
+                const std::vector<StudySummary>& summaries,
+                const std::string& folder,
+                Store* store) {
   const std::int64_t failed = store->Count(RowStatus::kFailed);
   const std::int64_t untrusted = store->Count(RowStatus::kUntrusted);
   if (failed > 0) PrintFailures(store, failed, manifest.batch.rows());
-  if (manifest.study != nullptr && !FLAGS_json)
-    PrintStudy(*manifest.study, folder, store);
-  else if (!FLAGS_quiet)
+  if (FLAGS_quiet) {
+    // The files have it all.
+  } else if (manifest.study != nullptr && !FLAGS_json) {
+    PrintStudy(manifest.batch.name, summaries, folder);
+  } else {
     PrintCounts(manifest.batch.name, folder, manifest.batch.rows(), untrusted, failed);
+  }
   if (failed > 0) return kSomeFailed;
   // Of a study, that some draws are not trusted is a result like others.
   return untrusted > 0 && manifest.study == nullptr ? kNotTrusted : kDone;
