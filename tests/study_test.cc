@@ -146,6 +146,59 @@ TEST(Study, WithoutNoiseAllThatIsExactIsExact) {
   }
 }
 
+// A cell of a row by its name.
+double CellOf(const std::vector<Cell>& cells, const std::string& name) {
+  const std::vector<Column> columns = StudyColumns(0);
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (columns[i].name == name) {
+      const auto* x = std::get_if<double>(&cells[i]);
+      return x != nullptr ? *x : std::nan("");
+    }
+  ADD_FAILURE() << "no column " << name;
+  return std::nan("");
+}
+
+// Worked by hand: a base 1 mm too far along its x puts every tool 1 mm off and turns none.
+TEST(Study, JudgesAKnownErrorByHand) {
+  const Study study = PosedStudy(1);
+  StudyResult result;
+  result.mounts = {study.cells[0].truth.world_from_base, study.cells[0].truth.platform_from_tool};
+  Vector6d error = Vector6d::Zero();
+  error[0] = 1e-3;
+  result.mounts.world_from_base = Plus(result.mounts.world_from_base, error);
+  Estimate estimate;
+  estimate.mounts = result.mounts;
+  estimate.covariance = 4e-6 * Matrix12d::Identity();
+  estimate.covariance(0, 1) = estimate.covariance(1, 0) = 2e-6;
+  estimate.intervals.half_width.setLinSpaced(1.0, 12.0);
+  estimate.intervals.ellipsoid = 21.0;
+  estimate.observability.determined.fill(true);
+  estimate.observability.determined[7] = false;
+  result.estimate = estimate;
+  const std::vector<Cell> cells = StudyCells(study, 0, study.estimators[0], result);
+  EXPECT_NEAR(CellOf(cells, "error_base_dx"), 1e-3, 1e-15);
+  EXPECT_NEAR(CellOf(cells, "error_base_dy"), 0.0, 1e-15);
+  EXPECT_NEAR(CellOf(cells, "error_tool_dx"), 0.0, 1e-15);
+  EXPECT_NEAR(CellOf(cells, "rms_position"), 1e-3, 1e-12);
+  EXPECT_NEAR(CellOf(cells, "rms_orientation"), 0.0, 1e-12);
+  EXPECT_TRUE(std::isnan(CellOf(cells, "rms_position_measured")));
+  EXPECT_EQ(CellOf(cells, "half_width_base_dx"), 1.0);
+  EXPECT_EQ(CellOf(cells, "half_width_base_rx"), 4.0);
+  EXPECT_TRUE(std::isnan(CellOf(cells, "half_width_tool_dy")));
+  EXPECT_EQ(CellOf(cells, "half_width_tool_rz"), 12.0);
+  // (C^-1)_11 of [4 2; 2 4] e-6 is 4/12 e6.
+  EXPECT_NEAR(CellOf(cells, "squared_distance"), 1e-6 * 1e6 / 3.0, 1e-9);
+  EXPECT_EQ(CellOf(cells, "ellipsoid"), 21.0);
+
+  // Turned by 2 mrad about its own z.
+  error.setZero();
+  error[5] = 2e-3;
+  result.mounts.world_from_base = Plus(study.cells[0].truth.world_from_base, error);
+  const std::vector<Cell> turned = StudyCells(study, 0, study.estimators[0], result);
+  EXPECT_NEAR(CellOf(turned, "error_base_rz"), 2e-3, 1e-12);
+  EXPECT_NEAR(CellOf(turned, "rms_orientation"), 2e-3, 1e-12);
+}
+
 TEST(Study, ErrorsGrowWithTheNoise) {
   Study study = PosedStudy(100);
   study.cells.push_back(MakeStudyCell("s", Posed(), Truth(), nullptr, 3.0, 12, 1.0, true));
