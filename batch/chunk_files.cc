@@ -141,9 +141,8 @@ std::vector<std::int64_t> ChunkFileSink::Missing(std::int64_t chunk) {
 }
 
 void ChunkFileSink::Take(std::int64_t chunk, const std::vector<Row>& rows, bool) {
-  std::vector<Row> all = files_->Read(chunk);  // of a run that was interrupted
+  std::vector<Row> all = files_->Read(chunk);  // of a run that was interrupted: the first ones
   all.insert(all.end(), rows.begin(), rows.end());
-  std::sort(all.begin(), all.end(), [](const Row& a, const Row& b) { return a.index < b.index; });
   files_->Write(chunk, all);
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "batch/chunk_files.h"
 #include "batch/csv.h"
 #include "batch/write_csv.h"
 #include "config/input_error.h"
@@ -100,6 +101,43 @@ TEST(Store, RefusesResultsOfAnotherBatch) {
   EXPECT_THROW(Store(folder.Path("db"), renamed), InputError);
   EXPECT_THROW(Store(folder.Write("text", "# not a database, but a text of many letters"), renamed),
                InputError);
+}
+
+// An interrupted share leaves part of a chunk; the next run adds the rest, and does not do again
+// what a store has.
+TEST(ChunkFiles, APartIsCompletedLater) {
+  const TemporaryFolder folder;
+  const Batch batch = ToyBatch(640);  // chunks of ten tasks
+  const ChunkFiles files(folder.Path("."), batch);
+  EXPECT_FALSE(files.AreThere());
+  ChunkFileSink sink(batch, &files, nullptr);
+  EXPECT_EQ(sink.Missing(2).size(), 10u);
+  std::vector<Row> part = RowsOf(batch, 20);
+  for (const Row& row : RowsOf(batch, 21)) part.push_back(row);
+  sink.Take(2, part, false);
+  EXPECT_EQ(sink.Missing(2), (Tasks{22, 23, 24, 25, 26, 27, 28, 29}));
+  EXPECT_EQ(sink.Missing(3).size(), 10u);
+  Store store(folder.Path("db"), batch);
+  store.Insert(RowsOf(batch, 29));
+  ChunkFileSink with_store(batch, &files, &store);
+  EXPECT_EQ(with_store.Missing(2), (Tasks{22, 23, 24, 25, 26, 27, 28}));
+  for (const std::int64_t task : with_store.Missing(2))
+    with_store.Take(2, RowsOf(batch, task), true);
+  EXPECT_EQ(files.Present(), std::vector<std::int64_t>{2});
+  EXPECT_EQ(files.Read(2).size(), 27u);
+
+  const Merged merged = MergeChunks(files, &store);
+  EXPECT_EQ(merged.rows, 27);
+  EXPECT_EQ(merged.duplicates, 0);
+  EXPECT_EQ(MergeChunks(files, &store).duplicates, 27);
+  for (std::int64_t task = 20; task < 30; ++task)
+    for (const Row& expected : RowsOf(batch, task)) {
+      Row row;
+      ASSERT_TRUE(store.Find(expected.index, &row));
+      EXPECT_EQ(row.cells, expected.cells) << expected.index;
+    }
+  files.RemoveAll();
+  EXPECT_FALSE(files.AreThere());
 }
 
 TEST(WriteCsv, IsTheSameHoweverTheRowsCame) {
