@@ -86,7 +86,7 @@ std::vector<FlagSpec> MakeSpecs() {
       {"stops", kFiles, "S", "every row is a pose", {}, 0.0, 1e6, true},
       {"window", kFiles, "S", "", {}, 0.0, 1e6},
       {"time_offset", kFiles, "S", "", {}, -3e9, 3e9},
-      {"missing_value", kFiles, "X", "", {}, -1e30, 1e30},
+      {"missing_value", kFiles, "X", "none", {}, -1e30, 1e30},
       {"kind", kFiles, "", "", {"any", "markers", "poses"}},
       {"static_tracker", kFiles, "", ""},
       {"hexapod", kFiles, "FILE.yaml", ""},
