@@ -184,17 +184,19 @@ class BatchRun {
 
   int Finish(Store* store) {
     WriteCsv(folder_.PathOf("results.csv"), manifest_.batch, store);
+    std::vector<std::pair<std::string, std::string>> files;
     std::vector<StudySummary> summaries;
     if (manifest_.study != nullptr) {
       summaries = Summarise(manifest_.study->study(), store);
-      folder_.Write("summary.csv", SummaryCsv(manifest_.batch.name, summaries));
+      files.emplace_back("summary.csv", SummaryCsv(manifest_.batch.name, summaries));
     }
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    folder_.Write(
+    files.emplace_back(
         "run.json",
         RunJson(RecordOf(
             "batch", std::vector<std::string>{path_}, seconds, ThreadsFor(FLAGS_threads))));
+    folder_.Write(files);
     files_.RemoveAll();
     return ReportBatch(manifest_, summaries, folder_.path(), store);
   }

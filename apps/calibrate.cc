@@ -152,18 +152,19 @@ class CalibrateRun {
     HistoryEntry entry(
         "calibrate", job->dataset, record, header, estimate, machine.effects, result);
     record.history = entry.mark();
-    job->folder.Write("model.yaml", WriteMachine(machine));
-    job->folder.Write("run.json", RunJson(record));
+    std::vector<std::pair<std::string, std::string>> files = {{"model.yaml", WriteMachine(machine)},
+                                                              {"run.json", RunJson(record)},
+                                                              {"result.json", result}};
     if (FLAGS_report) {
       const Observations observations = MakeObservations(job->dataset);
-      job->folder.Write("report.html",
-                        CalibrateHtml(header,
-                                      record,
-                                      estimate,
-                                      MakeScene(job->dataset, observations, estimate),
-                                      MakeLeftOver(job->dataset, observations, estimate)));
+      files.emplace_back("report.html",
+                         CalibrateHtml(header,
+                                       record,
+                                       estimate,
+                                       MakeScene(job->dataset, observations, estimate),
+                                       MakeLeftOver(job->dataset, observations, estimate)));
     }
-    job->folder.Write("result.json", result);
+    job->folder.Write(files);
     entry.Append();
     if (!estimate.IsTrustworthy()) ++untrusted_;
     PrintNewWarnings(job->dataset, estimate.warnings, "result.json");

@@ -64,17 +64,19 @@ int RunCompare(const std::vector<std::string>& files) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunRecord record = RecordOf("compare", dataset, seconds, options.threads);
   record.methods = TimesOf(comparison);
-  folder.Write("compare.json", CompareJson(dataset.name, options, comparison));
-  folder.Write("run.json", RunJson(record));
+  std::vector<std::pair<std::string, std::string>> results = {
+      {"compare.json", CompareJson(dataset.name, options, comparison)},
+      {"run.json", RunJson(record)}};
   if (FLAGS_report) {
     const Observations observations = MakeObservations(dataset);
-    folder.Write("report.html",
-                 CompareHtml(dataset.name,
-                             record,
-                             comparison,
-                             MakeScene(dataset, observations, comparison.reference),
-                             MakeLeftOver(dataset, observations, comparison.reference)));
+    results.emplace_back("report.html",
+                         CompareHtml(dataset.name,
+                                     record,
+                                     comparison,
+                                     MakeScene(dataset, observations, comparison.reference),
+                                     MakeLeftOver(dataset, observations, comparison.reference)));
   }
+  folder.Write(results);
   PrintNewWarnings(dataset, comparison.reference.warnings, "compare.json");
   if (FLAGS_json && !FLAGS_quiet)
     fmt::print("{}\n", CompareJsonLine(dataset.name, options, comparison));

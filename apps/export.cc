@@ -74,10 +74,10 @@ int RunExport(const std::vector<std::string>& files) {
   for (const std::string_view file : format.files)
     outputs.push_back({std::string(file), std::string(kExportMark)});
   OutputFolder folder(FLAGS_out, "", outputs, inputs, FLAGS_force);
-  for (const auto& [name, content] : format.write(input)) {
-    folder.Write(name, content);
+  const ExportedFiles exported = format.write(input);
+  folder.Write(exported);
+  for (const auto& [name, content] : exported)
     if (!FLAGS_quiet) fmt::print("{}\n", folder.PathOf(name));
-  }
   return kDone;
 }
 

@@ -108,17 +108,6 @@ NamedFiles FilesOf(const Assembled& assembled, const std::vector<std::string>& a
   return files;
 }
 
-// Tables first: the file that names them comes when they are there.
-void Write(const NamedFiles& files, OutputFolder& folder) {
-  const std::string& first = DatasetFiles().front().name;
-  for (const auto& [name, content] : files) {
-    if (name != first) folder.Write(name, content);
-  }
-  for (const auto& [name, content] : files) {
-    if (name == first) folder.Write(name, content);
-  }
-}
-
 std::string MeasuredText(const Dataset& dataset) {
   if (!dataset.measurement) return "";
   const Measurement& measurement = *dataset.measurement;
@@ -171,7 +160,7 @@ int RunImport(const std::vector<std::string>& files) {
   TryReading(dataset_files, assembled.dataset.measurement.has_value(), FLAGS_out);
   const std::optional<std::size_t> tried =
       CheckConventions(sources.robot, sources.tracker, options, assembled.dataset);
-  Write(dataset_files, folder);
+  folder.Write(dataset_files);
   if (!FLAGS_quiet) PrintSummary(assembled, tried, folder.PathOf(DatasetFiles().front().name));
   return kDone;
 }

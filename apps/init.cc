@@ -40,9 +40,9 @@ int RunInit(const std::vector<std::string>& /*files*/) {
                       {{"dataset.yaml", std::string(kMark)}, {"poses.csv", ""}, {table, ""}},
                       {},
                       FLAGS_force);
-  folder.Write("poses.csv", InitRobotTable());
-  folder.Write(table, by_poses ? InitMeasuredTable() : InitMarkersTable());
-  folder.Write("dataset.yaml", description);
+  folder.Write({{"poses.csv", std::string(InitRobotTable())},
+                {table, std::string(by_poses ? InitMeasuredTable() : InitMarkersTable())},
+                {"dataset.yaml", description}});
   if (FLAGS_quiet) return kDone;
   for (const std::string& name : {std::string("dataset.yaml"), std::string("poses.csv"), table})
     fmt::print("{}\n", folder.PathOf(name));

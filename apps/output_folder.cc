@@ -88,10 +88,12 @@ OutputFolder::OutputFolder(const std::string& out,
   }
 }
 
-void OutputFolder::Write(const std::string& name, std::string_view content) {
+void OutputFolder::Write(const std::vector<std::pair<std::string, std::string>>& files) {
+  std::vector<std::pair<std::string, std::string>> by_path;
+  for (const auto& [name, content] : files) by_path.emplace_back(PathOf(name), content);
   const WhileWriting no_interrupt;
   MakeFolder(path_);
-  WriteFileAtomically(PathOf(name), content);
+  WriteFilesAtomically(by_path);
 }
 
 std::string OutputFolder::PathOf(const std::string& name) const {

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace hexcal {
@@ -34,9 +35,9 @@ class OutputFolder {
                const std::vector<std::string>& inputs,
                bool force);
 
-  // Makes the folder with the first file. The file is written whole or not at all, interrupted or
-  // not.
-  void Write(const std::string& name, std::string_view content);
+  // Makes the folder. All of the files (name, content) are written, or an OutputError is thrown and
+  // all stand as before; interrupted or not.
+  void Write(const std::vector<std::pair<std::string, std::string>>& files);
 
   const std::string& path() const { return path_; }
   std::string PathOf(const std::string& name) const;

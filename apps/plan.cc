@@ -127,12 +127,12 @@ int RunPlan(const std::vector<std::string>& files) {
                       FLAGS_force);
   const Plan plan = PlanWithBars(dataset, machine, options);
   for (const std::string& warning : plan.warnings) PrintWarning(warning);
-  folder.Write(out.filename().string(),
-               is_table
-                   ? PlanComments(dataset.name, plan) +
-                         RecordedTable(
-                             ReadRecordedColumns(dataset.path), plan.poses, plan.base_from_platform)
-                   : PlanJson(dataset.name, options, plan));
+  folder.Write(
+      {{out.filename().string(),
+        is_table ? PlanComments(dataset.name, plan) +
+                       RecordedTable(
+                           ReadRecordedColumns(dataset.path), plan.poses, plan.base_from_platform)
+                 : PlanJson(dataset.name, options, plan)}});
   if (FLAGS_json && !FLAGS_quiet)
     fmt::print("{}\n", PlanJsonLine(dataset.name, options, plan));
   else if (!FLAGS_quiet)

@@ -50,7 +50,7 @@ int RunPredict(const std::vector<std::string>& files) {
                       InputFiles(dataset, FLAGS_model),
                       FLAGS_force);
   const std::vector<Pose3d> world_from_tool = Predict(machine, dataset);
-  folder.Write(out.filename().string(), PredictionTable(dataset, world_from_tool));
+  folder.Write({{out.filename().string(), PredictionTable(dataset, world_from_tool)}});
   if (!FLAGS_quiet) fmt::print("{}: {} poses predicted\n", FLAGS_out, world_from_tool.size());
   return kDone;
 }

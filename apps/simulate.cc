@@ -40,19 +40,13 @@ int RunSimulate(const std::vector<std::string>& files) {
   OutputFolder folder(
       FLAGS_out, dataset.name, DatasetFiles(), InputFiles(dataset, FLAGS_model), FLAGS_force);
   const Dataset simulated = Simulate(dataset, machine, OptionsFromFlags());
-  // Tables first: the file that names them comes when they are there.
-  const std::string* description = nullptr;
-  const std::vector<std::pair<std::string, std::string>> contents = WriteDataset(simulated);
-  for (const auto& [name, content] : contents) {
+  std::vector<std::pair<std::string, std::string>> written = WriteDataset(simulated);
+  for (auto& [name, content] : written) {
     if (name == DatasetFiles().front().name)
-      description = &content;
-    else
-      folder.Write(name, content);
+      content = fmt::format(
+          "{} --seed={} --noise={}\n{}", kSimulatedMark, FLAGS_seed, FLAGS_noise, content);
   }
-  folder.Write(
-      DatasetFiles().front().name,
-      fmt::format(
-          "{} --seed={} --noise={}\n{}", kSimulatedMark, FLAGS_seed, FLAGS_noise, *description));
+  folder.Write(written);
   if (!FLAGS_quiet)
     fmt::print("{}: {} poses simulated\n",
                folder.PathOf(DatasetFiles().front().name),

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <list>
 #include <mutex>
 #include <system_error>
 
@@ -99,12 +100,17 @@ void AtomicFile::Write(std::string_view content) {
   }
 }
 
-void AtomicFile::Commit() {
+void AtomicFile::Finish() {
   if (fchmod(descriptor_, OrdinaryMode()) != 0) Fail(path_, "setting its mode", errno);
   if (Retry([&] { return fsync(descriptor_); }) != 0) Fail(path_, "fsync", errno);
   const int descriptor = descriptor_;
   descriptor_ = -1;  // closed, whatever close says
   if (close(descriptor) != 0 && errno != EINTR) Fail(path_, "closing", errno);
+  finished_ = true;
+}
+
+void AtomicFile::Commit() {
+  if (!finished_) Finish();
   if (rename(temporary_.c_str(), path_.c_str()) != 0) Fail(path_, "rename to it", errno);
   renamed_ = true;
   SyncFolder(path_);
@@ -114,6 +120,16 @@ void WriteFileAtomically(const std::string& path, std::string_view content) {
   AtomicFile file(path);
   file.Write(content);
   file.Commit();
+}
+
+void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>& files) {
+  std::list<AtomicFile> written;
+  for (const auto& [path, content] : files) {
+    AtomicFile& file = written.emplace_back(path);
+    file.Write(content);
+    file.Finish();
+  }
+  for (AtomicFile& file : written) file.Commit();
 }
 
 void RemoveLeftTemporaries(const std::string& folder) {

@@ -3,6 +3,8 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace hexcal {
 
@@ -10,6 +12,10 @@ namespace hexcal {
 // until it is whole, then 0666 less the umask) in the same folder, fsync, rename, fsync of the
 // folder. OutputError says which step failed and why; the temporary is removed then.
 void WriteFileAtomically(const std::string& path, std::string_view content);
+
+// The same for several (path, content): a full disk leaves all of them as they were, as none takes
+// its place before the last one is on the disk.
+void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>& files);
 
 // The same for a file too large to hold: nothing of it is seen before Commit, and nothing is left
 // without it.
@@ -21,12 +27,14 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   void Write(std::string_view content);
-  void Commit();
+  void Finish();  // it is on the disk; nothing more is written
+  void Commit();  // it takes its place
 
  private:
   std::string path_;
   std::string temporary_;
   int descriptor_ = -1;
+  bool finished_ = false;
   bool renamed_ = false;
 };
 

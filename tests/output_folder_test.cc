@@ -41,7 +41,7 @@ TEST(OutputFolder, IsMadeWithItsFirstFile) {
   const TemporaryFolder top;
   OutputFolder folder(top.Path("a/b"), "name", kResultAndTable, {}, false);
   EXPECT_TRUE(top.Names().empty());
-  folder.Write("table.csv", "1\n");
+  folder.Write({{"table.csv", "1\n"}});
   EXPECT_EQ(top.Read("a/b/name/table.csv"), "1\n");
 }
 
