@@ -97,7 +97,8 @@ void AddRow(const Columns& columns, const Row& row, Tally* tally) {
       IsWithin(columns.Number(row, "squared_distance"), columns.Number(row, "ellipsoid")));
   const double false_names = columns.Number(row, "false_names");
   if (std::isnan(false_names)) return;
-  tally->all_named.Add(columns.Number(row, "named") == columns.Number(row, "hidden") ? 1.0 : 0.0);
+  const double hidden = columns.Number(row, "hidden");
+  if (hidden > 0) tally->all_named.Add(columns.Number(row, "named") == hidden ? 1.0 : 0.0);
   tally->false_names.Add(false_names > 0 ? 1.0 : 0.0);
 }
 
