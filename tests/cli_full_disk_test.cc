@@ -118,5 +118,49 @@ INSTANTIATE_TEST_SUITE_P(
               "--out=out"}}),
     [](const auto& command) { return command.param.name; });
 
+// What a batch had finished stays, a share of one too, and the same command does the rest once
+// there is room.
+class CliFullDiskBatch : public ::testing::TestWithParam<std::string> {
+ protected:
+  ProgramResult Run(const std::string& out, const std::string& share, long full_after) const {
+    std::vector<std::string> arguments = {"batch", "m.yaml", "--quiet", "--out=" + out};
+    if (!share.empty()) arguments.push_back(share);
+    std::vector<std::pair<std::string, std::string>> environment = {
+        {"LD_PRELOAD", HEXCAL_FULL_DISK},
+        {"HEXCAL_CALLS", logs_.Path("calls")},
+        {"ASAN_OPTIONS", "verify_asan_link_order=0"}};
+    if (full_after > 0) environment.emplace_back("HEXCAL_FULL_AFTER", std::to_string(full_after));
+    return RunHexcal({arguments, folder_.Path(""), environment});
+  }
+
+  TemporaryFolder folder_, logs_;
+};
+
+TEST_P(CliFullDiskBatch, GoesOnOnceThereIsRoom) {
+  constexpr long kStep = 5;
+  folder_.Write(
+      "m.yaml",
+      "format: hexcal/batch/1\nname: m\nstudy:\n  draws: 8\n  scenarios:\n    - {name: s, "
+      "dataset: " +
+          kDataset + ", truth: " + kModel + ", poses: 6}\nestimators: [shah]\n");
+  ASSERT_EQ(Run("whole", "", 0).status, 0);
+  const Files whole = FilesIn(folder_.Path("whole"));
+  ASSERT_EQ(Run("count", GetParam(), 0).status, 0);
+  const long calls = std::stol(logs_.Read("calls"));
+  ASSERT_GE(calls, 2 * kStep);
+  for (long k = 1; k <= calls; k += kStep) {
+    SCOPED_TRACE("full from call " + std::to_string(k) + " of " + std::to_string(calls));
+    fs::remove_all(folder_.Path("out"));
+    EXPECT_EQ(Run("out", GetParam(), k).status, 5);
+    EXPECT_EQ(Run("out", "", 0).status, 0);
+    const Files after = FilesIn(folder_.Path("out"));
+    EXPECT_EQ(after.size(), whole.size());
+    for (const char* name : {"results.csv", "summary.csv"})
+      EXPECT_TRUE(after.count(name) > 0 && after.at(name) == whole.at(name)) << name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Batch, CliFullDiskBatch, ::testing::Values("--threads=1", "--task=1/1"));
+
 }  // namespace
 }  // namespace hexcal
