@@ -18,6 +18,9 @@ endif()
 function(hexcal_own target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                                            $<$<BOOL:${PROJECT_IS_TOP_LEVEL}>:-Werror>)
+  if(HEXCAL_FUZZ)
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+  endif()
   if(HEXCAL_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${HEXCAL_SANITIZE}
                                              -fno-sanitize-recover=all -fno-omit-frame-pointer)

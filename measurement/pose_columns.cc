@@ -131,8 +131,11 @@ Pose3d PoseColumns::ReadPose(const TableReader& table, const Units& units) const
     for (int i = 0; i < 9; ++i) matrix(i / 3, i % 3) = number(3 + i);
     return MakePose(CheckedRotation(matrix, where), xyz);
   }
+  // Read first: an exception within << would leave it unfinished, which Eigen's own checks take for
+  // a mistake of the program.
+  const Eigen::Vector3d angles = units.angle * Eigen::Vector3d{number(3), number(4), number(5)};
   Vector6d pose_vector;
-  pose_vector << xyz, units.angle * Eigen::Vector3d{number(3), number(4), number(5)};
+  pose_vector << xyz, angles;
   return PoseFromVector(pose_vector);
 }
 
