@@ -141,11 +141,11 @@ int RunAudit(const std::vector<std::string>& files) {
   HistoryEntry entry("audit", dataset, record, audit.header, audit.estimate, {}, result);
   record.history = entry.mark();
   identity.log = entry.log();
-  folder.Write({{"model.yaml", WriteMachine(MachineOf(dataset, audit.estimate))},
+  folder.Write({{"audit.json", AuditJson(identity, audit)},
+                {"model.yaml", WriteMachine(MachineOf(dataset, audit.estimate))},
                 {"run.json", RunJson(record)},
                 {"result.json", result},
-                {"report.html", AuditHtml(identity, record, audit)},
-                {"audit.json", AuditJson(identity, audit)}});
+                {"report.html", AuditHtml(identity, record, audit)}});
   entry.Append();
   PrintNewWarnings(dataset, audit.estimate.warnings, "audit.json");
   if (FLAGS_json && !FLAGS_quiet)

@@ -152,9 +152,9 @@ class CalibrateRun {
     HistoryEntry entry(
         "calibrate", job->dataset, record, header, estimate, machine.effects, result);
     record.history = entry.mark();
-    std::vector<std::pair<std::string, std::string>> files = {{"model.yaml", WriteMachine(machine)},
-                                                              {"run.json", RunJson(record)},
-                                                              {"result.json", result}};
+    std::vector<std::pair<std::string, std::string>> files = {{"result.json", result},
+                                                              {"model.yaml", WriteMachine(machine)},
+                                                              {"run.json", RunJson(record)}};
     if (FLAGS_report) {
       const Observations observations = MakeObservations(job->dataset);
       files.emplace_back("report.html",

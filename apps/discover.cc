@@ -66,11 +66,11 @@ int RunDiscover(const std::vector<std::string>& files) {
   HistoryEntry entry(
       "discover", dataset, record, HeaderOfModel(dataset), discovery.estimate, effects, result);
   record.history = entry.mark();
-  folder.Write({{"model.yaml", WriteMachine(discovery.machine)},
+  folder.Write({{"discovery.json", DiscoveryJson(dataset.name, options, discovery)},
+                {"model.yaml", WriteMachine(discovery.machine)},
                 {"run.json", RunJson(record)},
                 {"result.json", result},
-                {"report.html", DiscoveryHtml(dataset.name, record, discovery)},
-                {"discovery.json", DiscoveryJson(dataset.name, options, discovery)}});
+                {"report.html", DiscoveryHtml(dataset.name, record, discovery)}});
   entry.Append();
   PrintNewWarnings(dataset, discovery.warnings, "discovery.json");
   if (FLAGS_json && !FLAGS_quiet)

@@ -11,6 +11,7 @@
 #include "config/nearest_word.h"
 #include "estimator/observations.h"
 #include "report/export/formats.h"
+#include "report/written_json.h"
 
 namespace hexcal {
 namespace {
@@ -76,8 +77,12 @@ int RunExport(const std::vector<std::string>& files) {
   OutputFolder folder(FLAGS_out, "", outputs, inputs, FLAGS_force);
   const ExportedFiles exported = format.write(input);
   folder.Write(exported);
-  for (const auto& [name, content] : exported)
-    if (!FLAGS_quiet) fmt::print("{}\n", folder.PathOf(name));
+  if (FLAGS_quiet) return kDone;
+  const std::vector<std::string> paths = folder.PathsOf(exported);
+  if (FLAGS_json)
+    fmt::print("{}\n", WrittenJsonLine("export", paths, {}));
+  else
+    fmt::print("{}\n", fmt::join(paths, "\n"));
   return kDone;
 }
 
@@ -115,6 +120,7 @@ Command ExportCommand() {
            {"platform_frame"},
            {"tool_frame"},
            {"config"},
+           {"json"},
            {"quiet"},
            {"force"}},
           &RunExport,

@@ -21,6 +21,7 @@
 #include "measurement/importers/initial_guess.h"
 #include "measurement/importers/stops.h"
 #include "measurement/importers/yaml_poses.h"
+#include "report/written_json.h"
 
 namespace hexcal {
 namespace {
@@ -161,7 +162,14 @@ int RunImport(const std::vector<std::string>& files) {
   const std::optional<std::size_t> tried =
       CheckConventions(sources.robot, sources.tracker, options, assembled.dataset);
   folder.Write(dataset_files);
-  if (!FLAGS_quiet) PrintSummary(assembled, tried, folder.PathOf(DatasetFiles().front().name));
+  if (FLAGS_quiet) return kDone;
+  if (FLAGS_json)
+    fmt::print("{}\n",
+               WrittenJsonLine("import",
+                               folder.PathsOf(dataset_files),
+                               {{"poses", assembled.dataset.robot_poses.rows.size()}}));
+  else
+    PrintSummary(assembled, tried, folder.PathOf(DatasetFiles().front().name));
   return kDone;
 }
 
@@ -221,6 +229,7 @@ Command ImportCommand() {
        {"initial"},
        {"name"},
        {"config"},
+       {"json"},
        {"quiet"},
        {"force"}},
       &RunImport,

@@ -11,6 +11,7 @@
 #include "apps/init_texts.h"
 #include "apps/output_folder.h"
 #include "apps/usage_error.h"
+#include "report/written_json.h"
 
 namespace hexcal {
 namespace {
@@ -40,12 +41,17 @@ int RunInit(const std::vector<std::string>& /*files*/) {
                       {{"dataset.yaml", std::string(kMark)}, {"poses.csv", ""}, {table, ""}},
                       {},
                       FLAGS_force);
-  folder.Write({{"poses.csv", std::string(InitRobotTable())},
-                {table, std::string(by_poses ? InitMeasuredTable() : InitMarkersTable())},
-                {"dataset.yaml", description}});
+  const std::vector<std::pair<std::string, std::string>> written = {
+      {"dataset.yaml", description},
+      {"poses.csv", std::string(InitRobotTable())},
+      {table, std::string(by_poses ? InitMeasuredTable() : InitMarkersTable())}};
+  folder.Write(written);
   if (FLAGS_quiet) return kDone;
-  for (const std::string& name : {std::string("dataset.yaml"), std::string("poses.csv"), table})
-    fmt::print("{}\n", folder.PathOf(name));
+  const std::vector<std::string> paths = folder.PathsOf(written);
+  if (FLAGS_json)
+    fmt::print("{}\n", WrittenJsonLine("init", paths, {}));
+  else
+    fmt::print("{}\n", fmt::join(paths, "\n"));
   return kDone;
 }
 
@@ -64,6 +70,7 @@ Command InitCommand() {
            {"kind", false, {}, "What the tracker measures: markers (any: the same), or poses."},
            {"name", false, {}, "The name of the dataset."},
            {"config"},
+           {"json"},
            {"quiet"},
            {"force"}},
           &RunInit,

@@ -100,6 +100,13 @@ std::string OutputFolder::PathOf(const std::string& name) const {
   return (fs::path(path_) / name).string();
 }
 
+std::vector<std::string> OutputFolder::PathsOf(
+    const std::vector<std::pair<std::string, std::string>>& files) const {
+  std::vector<std::string> paths;
+  for (const auto& [name, content] : files) paths.push_back(PathOf(name));
+  return paths;
+}
+
 void RequireDistinctNames(const std::vector<std::pair<std::string, std::string>>& datasets) {
   std::map<std::string, std::string> file_of_name;
   for (const auto& [file, name] : datasets) {

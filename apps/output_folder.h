@@ -41,6 +41,8 @@ class OutputFolder {
 
   const std::string& path() const { return path_; }
   std::string PathOf(const std::string& name) const;
+  std::vector<std::string> PathsOf(
+      const std::vector<std::pair<std::string, std::string>>& files) const;  // (name, content)
 
  private:
   std::string path_;

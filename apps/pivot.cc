@@ -87,7 +87,7 @@ int RunPivot(const std::vector<std::string>& files) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunRecord record = RecordOf("pivot", dataset, seconds, 1);
   record.inputs = inputs;
-  folder.Write({{"run.json", RunJson(record)}, {"pivot.json", PivotJson(dataset, result)}});
+  folder.Write({{"pivot.json", PivotJson(dataset, result)}, {"run.json", RunJson(record)}});
   PrintWarnings(dataset.name, result.warnings);
   if (FLAGS_json && !FLAGS_quiet)
     fmt::print("{}\n", PivotJsonLine(dataset, result));

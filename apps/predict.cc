@@ -14,6 +14,7 @@
 #include "measurement/dataset.h"
 #include "model/machine.h"
 #include "model/predict.h"
+#include "report/written_json.h"
 
 namespace hexcal {
 namespace {
@@ -51,7 +52,12 @@ int RunPredict(const std::vector<std::string>& files) {
                       FLAGS_force);
   const std::vector<Pose3d> world_from_tool = Predict(machine, dataset);
   folder.Write({{out.filename().string(), PredictionTable(dataset, world_from_tool)}});
-  if (!FLAGS_quiet) fmt::print("{}: {} poses predicted\n", FLAGS_out, world_from_tool.size());
+  if (FLAGS_quiet) return kDone;
+  if (FLAGS_json)
+    fmt::print("{}\n",
+               WrittenJsonLine("predict", {FLAGS_out}, {{"poses", world_from_tool.size()}}));
+  else
+    fmt::print("{}: {} poses predicted\n", FLAGS_out, world_from_tool.size());
   return kDone;
 }
 
@@ -71,6 +77,7 @@ Command PredictCommand() {
       {{"model", true},
        {"out", true, "FILE.csv", "The table to write."},
        {"config"},
+       {"json"},
        {"quiet"},
        {"force"}},
       &RunPredict,

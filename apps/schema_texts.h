@@ -21,5 +21,6 @@ std::string_view PlanSchemaText();
 std::string_view PivotingSchemaText();
 std::string_view PivotSchemaText();
 std::string_view RunSchemaText();
+std::string_view WrittenSchemaText();
 
 }  // namespace hexcal

@@ -71,7 +71,8 @@ const std::vector<SchemaInfo>& Schemas() {
       {"compare", "compare.json", &CompareSchemaText},
       {"plan", "plan.json", &PlanSchemaText},
       {"pivot", "pivot.json", &PivotSchemaText},
-      {"run", "run.json, beside each of them", &RunSchemaText}};
+      {"run", "run.json, beside each of them", &RunSchemaText},
+      {"written", "--json of commands that only make files", &WrittenSchemaText}};
   return schemas;
 }
 

@@ -14,6 +14,7 @@
 #include "measurement/dataset_writer.h"
 #include "model/machine.h"
 #include "model/simulate.h"
+#include "report/written_json.h"
 
 namespace hexcal {
 namespace {
@@ -47,10 +48,12 @@ int RunSimulate(const std::vector<std::string>& files) {
           "{} --seed={} --noise={}\n{}", kSimulatedMark, FLAGS_seed, FLAGS_noise, content);
   }
   folder.Write(written);
-  if (!FLAGS_quiet)
-    fmt::print("{}: {} poses simulated\n",
-               folder.PathOf(DatasetFiles().front().name),
-               simulated.robot_poses.rows.size());
+  if (FLAGS_quiet) return kDone;
+  const std::size_t poses = simulated.robot_poses.rows.size();
+  if (FLAGS_json)
+    fmt::print("{}\n", WrittenJsonLine("simulate", folder.PathsOf(written), {{"poses", poses}}));
+  else
+    fmt::print("{}: {} poses simulated\n", folder.PathOf(DatasetFiles().front().name), poses);
   return kDone;
 }
 
@@ -74,6 +77,7 @@ Command SimulateCommand() {
        {"seed"},
        {"noise"},
        {"config"},
+       {"json"},
        {"quiet"},
        {"force"}},
       &RunSimulate,

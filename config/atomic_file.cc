@@ -129,7 +129,7 @@ void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>
     file.Write(content);
     file.Finish();
   }
-  for (AtomicFile& file : written) file.Commit();
+  for (auto file = written.rbegin(); file != written.rend(); ++file) file->Commit();
 }
 
 void RemoveLeftTemporaries(const std::string& folder) {

@@ -14,7 +14,8 @@ namespace hexcal {
 void WriteFileAtomically(const std::string& path, std::string_view content);
 
 // The same for several (path, content): a full disk leaves all of them as they were, as none takes
-// its place before the last one is on the disk.
+// its place before the last one is on the disk. The first, which may name the others, takes its
+// place last.
 void WriteFilesAtomically(const std::vector<std::pair<std::string, std::string>>& files);
 
 // The same for a file too large to hold: nothing of it is seen before Commit, and nothing is left

@@ -181,6 +181,38 @@ TEST(CliSchema, HoldsForWhatImportWrites) {
   ExpectValid(folder, {"dataset"});
 }
 
+TEST(CliSchema, HoldsForWhatFileMakersPrint) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(Call({"calibrate", kNeurobot, "--out=a"}, folder).status, 0);
+  const std::string model = "--model=a/neurobot/model.yaml";
+  SchemaCheck check;
+  check.AddSchema("written", SchemaOf("written", folder));
+  const std::vector<std::vector<std::string>> calls = {
+      {"predict", kNeurobot, model, "--out=where.csv"},
+      {"simulate", kNeurobot, model, "--out=s"},
+      {"export", "ros2", "a/neurobot/result.json", "--out=x"},
+      {"init", "--out=i"},
+      {"import",
+       "ndi_csv",
+       kExamples + "/ndi-and-pi/tracker.csv",
+       "--robot=" + kExamples + "/ndi-and-pi/hexapod.dat",
+       "--base=0x0A",
+       "--tool=0x0B",
+       "--pair=rows",
+       "--out=m"}};
+  for (std::vector<std::string> call : calls) {
+    call.push_back("--json");
+    const ProgramResult result = Call(call, folder);
+    ASSERT_EQ(result.status, 0) << result.err;
+    const Json json = Json::parse(result.out);
+    EXPECT_EQ(json["command"], call[0]);
+    for (const Json& file : json["files"])
+      EXPECT_FALSE(folder.Read(file.get<std::string>()).empty()) << file;
+    check.Add("written", json);
+  }
+  EXPECT_THAT(check.Judge(), ::testing::ElementsAre("", "", "", "", ""));
+}
+
 // What goes to stdout is what goes to the file.
 TEST(CliSchema, HoldsForJsonOnStdout) {
   const TemporaryFolder folder;
