@@ -69,7 +69,12 @@ bool IsNumber(const FlagSpec& spec) { return IsWholeNumber(spec) || Info(spec).t
 
 bool WasGiven(const FlagSpec& spec) { return !Info(spec).is_default; }
 
-std::string CurrentText(const FlagSpec& spec) { return Info(spec).current_value; }
+std::string CurrentText(const FlagSpec& spec) {
+  const std::string text = Info(spec).current_value;
+  if (!IsNumber(spec) || IsWholeNumber(spec)) return text;
+  const std::optional<double> value = ParseDouble(text);  // nan stays what it is
+  return value ? fmt::format("{}", *value) : text;        // 1e-12, not 9.9999999999999998e-13
+}
 
 std::string DefaultText(const FlagSpec& spec) {
   if (!spec.default_text.empty()) return std::string(spec.default_text);

@@ -3,15 +3,32 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <gflags/gflags.h>
 
+#include <algorithm>
+#include <cctype>
 #include <ctime>
 
 #include "apps/command.h"
 #include "apps/dataset_files.h"
+#include "apps/flag_value.h"
 #include "apps/version.h"
 
 namespace hexcal {
+namespace {
+
+// As a shell reads it back.
+std::string Quoted(const std::string& text) {
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) || c > 127 ||
+           std::string_view("_-./=:,+@%").find(c) != std::string::npos;
+  };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+}  // namespace
 
 RunRecord RecordOf(std::string_view command, const Dataset& dataset, double seconds, int threads) {
   return RecordOf(command, InputFiles(dataset, ""), seconds, threads);
@@ -23,10 +40,14 @@ RunRecord RecordOf(std::string_view command,
                    int threads) {
   RunRecord record;
   record.version = VersionText();
+  record.call = fmt::format("hexcal {}", command);
+  if (!inputs.empty()) record.call += " " + Quoted(inputs.front());
   for (const CommandFlag& flag : FindCommand(command)->flags) {
-    std::string value;
-    gflags::GetCommandLineOption(std::string(flag.name).c_str(), &value);
+    const FlagSpec& spec = *FindFlag(flag.name);
+    const std::string value = CurrentText(spec);
     record.settings.emplace_back(flag.name, value);
+    if (flag.name != "config" && WasGiven(spec))
+      record.call += fmt::format(" --{}={}", flag.name, Quoted(value));
   }
   record.inputs = inputs;
   record.started_utc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));

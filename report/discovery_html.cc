@@ -209,6 +209,7 @@ void AddReproduce(const RunRecord& record, HtmlPage* page) {
   page->Paragraph(
       "The same build, input and seed give the same result.json, model.yaml and discovery.json, "
       "which lie beside this report and have every number of it.");
+  if (!record.call.empty()) page->Code(record.call);
   HtmlTable settings = {{{"setting"}, {"value"}}, {}};
   for (const auto& [name, value] : record.settings)
     if (!value.empty()) settings.rows.push_back({name, value});

@@ -100,6 +100,7 @@ void AddReproduction(const RunRecord& record,
       "The same build, input and seed give the same {}, which lie beside this report and have "
       "every number of it.",
       files));
+  if (!record.call.empty()) page->Code(record.call);
   HtmlTable settings = {{{"setting"}, {"value"}}, {}};
   for (const auto& [name, value] : record.settings)
     if (!value.empty()) settings.rows.push_back({name, value});

@@ -26,6 +26,7 @@ struct HistoryMark {
 struct RunRecord {
   std::string version;                                        // of hexcal and its libraries, lines
   std::vector<std::pair<std::string, std::string>> settings;  // flags and their values
+  std::string call;                                           // the command, for a shell; reports
   std::vector<std::string> inputs;                            // the files that were read
   std::string started_utc;                                    // ISO 8601
   double seconds = 0.0;

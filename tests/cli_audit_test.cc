@@ -74,6 +74,14 @@ TEST_F(CliAudit, LeavesItsFilesAndSaysWhatIsInThem) {
   EXPECT_THAT(Read("report.html"), HasSubstr(audit["id"].get<std::string>()));
   EXPECT_EQ(Json::parse(Read("result.json"))["residual"], "marker");
   EXPECT_EQ(Json::parse(Read("run.json"))["settings"]["folds"], "2");
+  EXPECT_EQ(Json::parse(Read("run.json"))["settings"]["tolerance"], "1e-12");
+}
+
+TEST_F(CliAudit, TheReportHasTheCallAsAShellReadsItBack) {
+  ASSERT_EQ(Audit({"--operator=second shift", "--history=" + folder.Path("h.sqlite")}).status, 0);
+  EXPECT_THAT(Read("report.html"), HasSubstr("dataset.yaml --out="));
+  EXPECT_THAT(Read("report.html"), HasSubstr("--folds=2"));
+  EXPECT_THAT(Read("report.html"), HasSubstr("--operator=&#39;second shift&#39;"));
 }
 
 TEST_F(CliAudit, GateTurnsAFailIntoItsStatusAndNothingElseDoes) {
