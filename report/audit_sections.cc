@@ -145,7 +145,9 @@ void AddChange(const Audit& audit, HtmlPage* page) {
     points.rows.push_back(
         {audit.requirements.points[i].name, fmt::format("{:.4f}", 1e3 * change.at_points[i])});
   page->Table(points);
-  page->Note("The two calibrations count as independent: no reading is in both.");
+  page->Note(
+      "The two calibrations count as independent. That is so only where no reading is in both: "
+      "else the change is surer than its uncertainty says.");
 }
 
 }  // namespace hexcal

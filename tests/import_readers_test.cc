@@ -80,7 +80,7 @@ TEST(NdiCsv, LeavesOutWhatWasNotSeen) {
   EXPECT_TRUE(read.markers[6].points[0]);
   EXPECT_TRUE(read.bodies[1].poses[2]);
   ASSERT_EQ(read.warnings.size(), 1u);
-  EXPECT_THAT(read.warnings[0], HasSubstr("1 tools not used, their state being 'Too Few Markers'"));
+  EXPECT_THAT(read.warnings[0], HasSubstr("1 tool not used, its state being 'Too Few Markers'"));
 }
 
 TEST(NdiCsv, TakesAMissingValueAndWarnsOfZeros) {

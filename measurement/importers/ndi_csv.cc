@@ -50,8 +50,12 @@ class NdiCsv {
     if (recording_.rows == 0)
       throw InputError(reader_.File(), "no row below the header", "a row for each frame");
     for (const auto& [state, count] : not_ok_)
-      recording_.warnings.push_back(fmt::format(
-          "{}: {} tools not used, their state being '{}'", recording_.path, count, state));
+      recording_.warnings.push_back(
+          fmt::format("{}: {} not used, {} state being '{}'",
+                      recording_.path,
+                      count == 1 ? "1 tool" : fmt::format("{} tools", count),
+                      count == 1 ? "its" : "their",
+                      state));
     WarnOfZeros(recording_);
     recording_.reading = "mm, quaternions scalar first";
     return std::move(recording_);
