@@ -187,8 +187,10 @@ TEST(Machine, ReadsBackItsEffectsAndItsPoseMap) {
 }
 
 TEST(Machine, WithAnEffectThatIsNoneIsRefused) {
-  EXPECT_EQ(MessageOf(std::string(kPlain) + "effects:\n  - {name: leg_ofset}\n"),
-            ":6:12: found the effect 'leg_ofset', expected 'leg_offset'?");
+  EXPECT_EQ(
+      MessageOf(std::string(kPlain) + "effects:\n  - {name: leg_ofset}\n"),
+      ":6:12: found the effect 'leg_ofset', expected an effect that docs/effects.md lists (did "
+      "you mean 'leg_offset'?)");
 }
 
 TEST(Machine, WithAPoseMapThatIsNoneIsRefused) {
