@@ -36,8 +36,10 @@ class Workers {
  private:
   void ShowProgress() {
     std::unique_lock<std::mutex> lock(mutex_);
-    while (working_ > 0) {
-      changed_.wait_for(lock, kBetweenBars);
+    // The end is told even where the work was over before anybody looked.
+    for (bool is_over = false; !is_over;) {
+      if (working_ > 0) changed_.wait_for(lock, kBetweenBars);
+      is_over = working_ == 0;
       const std::int64_t done = done_;
       lock.unlock();
       if (options_.progress) options_.progress(done, of_);
