@@ -62,13 +62,14 @@ function(hexcal_install)
   set(printed "${PROJECT_BINARY_DIR}/printed")
   file(MAKE_DIRECTORY "${printed}")
   add_custom_command(
-    OUTPUT "${printed}/hexcal.1" "${printed}/hexcal" "${printed}/_hexcal"
+    OUTPUT "${printed}/hexcal.1.gz" "${printed}/hexcal" "${printed}/_hexcal"
     COMMAND hexcal man > "${printed}/hexcal.1"
+    COMMAND gzip -9nf "${printed}/hexcal.1"
     COMMAND hexcal completion bash > "${printed}/hexcal"
     COMMAND hexcal completion zsh > "${printed}/_hexcal"
     DEPENDS hexcal)
-  add_custom_target(hexcal_printed ALL DEPENDS "${printed}/hexcal.1")
-  install(FILES "${printed}/hexcal.1" DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+  add_custom_target(hexcal_printed ALL DEPENDS "${printed}/hexcal.1.gz")
+  install(FILES "${printed}/hexcal.1.gz" DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
   install(FILES "${printed}/hexcal"
     DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
   install(FILES "${printed}/_hexcal"

@@ -46,7 +46,7 @@ the model of the robot still misses.")
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
       "libboost-dev, libceres-dev, libeigen3-dev, libfmt-dev, libgflags-dev, libgoogle-glog-dev, libsqlite3-dev, libssl-dev, libyaml-cpp-dev, nlohmann-json3-dev")
   set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "base and tool calibration of hexapods (development files)
-Headers, static libraries, a CMake package and files for pkg-config: what others
-need to build on hexcal.")
+Headers, static libraries, a CMake package and files for pkg-config, which
+others need to build on hexcal.")
   include(CPack)
 endfunction()
