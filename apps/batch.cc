@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <future>
 #include <memory>
 
 #include "apps/batch_manifest.h"
@@ -182,14 +183,22 @@ class BatchRun {
     return RunChunks(manifest_.batch, options, sink);
   }
 
+  // Of a study; else empty. By a connection of its own, for it runs beside WriteCsv.
+  std::vector<StudySummary> Summaries() const {
+    if (manifest_.study == nullptr) return {};
+    Store store(store_path_, manifest_.batch, Database::Access::kRead);
+    return Summarise(manifest_.study->study(), &store);
+  }
+
   int Finish(Store* store) {
+    const auto when = ThreadsFor(FLAGS_threads) > 1 ? std::launch::async : std::launch::deferred;
+    std::future<std::vector<StudySummary>> summarised =
+        std::async(when, [this] { return Summaries(); });
     WriteCsv(folder_.PathOf("results.csv"), manifest_.batch, store);
+    const std::vector<StudySummary> summaries = summarised.get();
     std::vector<std::pair<std::string, std::string>> files;
-    std::vector<StudySummary> summaries;
-    if (manifest_.study != nullptr) {
-      summaries = Summarise(manifest_.study->study(), store);
+    if (manifest_.study != nullptr)
       files.emplace_back("summary.csv", SummaryCsv(manifest_.batch.name, summaries));
-    }
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     files.emplace_back(

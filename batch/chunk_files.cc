@@ -70,7 +70,7 @@ std::vector<std::int64_t> ChunkFiles::Present() const {
 
 void ChunkFiles::Write(std::int64_t chunk, const std::vector<Row>& rows) const {
   std::string text = HeadOf(chunk) + "\n" + CsvHeader(columns_);
-  for (const Row& row : rows) text += CsvLine(batch_.name, row);
+  for (const Row& row : rows) AppendCsvLine(batch_.name, row, &text);
   MakeFolder(folder_);
   WriteFileAtomically(PathOf(chunk), text + "# end\n");
 }

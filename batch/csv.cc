@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <type_traits>
+#include <iterator>
 
 #include "config/utf8.h"
 
@@ -13,12 +13,13 @@ namespace {
 
 constexpr int kLongestText = 300;
 
-struct AsText {
-  std::string operator()(std::monostate) const { return ""; }
-  std::string operator()(const std::string& text) const { return text; }
+struct AppendText {
+  std::string* line;
+  void operator()(std::monostate) const {}
+  void operator()(const std::string& text) const { *line += text; }
   template <typename Number>
-  std::string operator()(Number number) const {
-    return fmt::format("{}", number);
+  void operator()(Number number) const {
+    fmt::format_to(std::back_inserter(*line), "{}", number);
   }
 };
 
@@ -81,10 +82,21 @@ std::string CsvHeader(const std::vector<Column>& all_columns) {
   return line + "\n";
 }
 
+void AppendCsvLine(const std::string& study, const Row& row, std::string* text) {
+  *text += study;
+  *text += ',';
+  AppendText{text}(row.index);
+  for (const Cell& cell : row.cells) {
+    *text += ',';
+    std::visit(AppendText{text}, cell);
+  }
+  *text += '\n';
+}
+
 std::string CsvLine(const std::string& study, const Row& row) {
-  std::string line = fmt::format("{},{}", study, row.index);
-  for (const Cell& cell : row.cells) line += "," + std::visit(AsText(), cell);
-  return line + "\n";
+  std::string line;
+  AppendCsvLine(study, row, &line);
+  return line;
 }
 
 }  // namespace hexcal

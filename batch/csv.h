@@ -23,5 +23,6 @@ Row MakeRow(std::int64_t index, const Outcome& outcome, const std::vector<Column
 // "study,idx,status,message,...\n" and a row of it. Numbers keep all their bits.
 std::string CsvHeader(const std::vector<Column>& all_columns);
 std::string CsvLine(const std::string& study, const Row& row);
+void AppendCsvLine(const std::string& study, const Row& row, std::string* text);
 
 }  // namespace hexcal

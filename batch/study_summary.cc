@@ -2,11 +2,12 @@
 #include "batch/study_summary.h"
 
 #include <fmt/format.h>
+#include <glog/logging.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <string_view>
 
 #include "batch/csv.h"
 #include "batch/study_result.h"
@@ -42,25 +43,43 @@ struct Tally {
 
 // Where the columns are that a summary reads.
 class Columns {
- public:
-  explicit Columns(int records) {
+  std::vector<Column> all_;
+
+  static std::vector<Column> AllOf(int records) {
     std::vector<Column> all = {{"status", CellKind::kText}, {"message", CellKind::kText}};
     for (const Column& column : StudyColumns(records)) all.push_back(column);
-    for (std::size_t i = 0; i < all.size(); ++i) at_[all[i].name] = i;
+    return all;
   }
-  std::size_t At(const std::string& name) const { return at_.at(name); }
-
-  double Number(const Row& row, std::size_t at) const {
-    if (const auto* real = std::get_if<double>(&row.cells[at])) return *real;
-    if (const auto* whole = std::get_if<std::int64_t>(&row.cells[at]))
-      return static_cast<double>(*whole);
-    return std::numeric_limits<double>::quiet_NaN();
+  std::size_t At(std::string_view name) const {
+    const auto found = std::find_if(
+        all_.begin(), all_.end(), [name](const Column& column) { return column.name == name; });
+    CHECK(found != all_.end()) << name;
+    return static_cast<std::size_t>(found - all_.begin());
   }
-  double Number(const Row& row, const std::string& name) const { return Number(row, At(name)); }
 
- private:
-  std::map<std::string, std::size_t> at_;
+ public:
+  explicit Columns(int records) : all_(AllOf(records)), rmspe(records > 0 ? At("rmspe_0") : 0) {}
+
+  const std::size_t rmspe;  // where there are records
+  const std::size_t iterations = At("iterations");
+  const std::size_t rms_position = At("rms_position");
+  const std::size_t rms_position_measured = At("rms_position_measured");
+  const std::size_t rms_orientation = At("rms_orientation");
+  const std::size_t error = At("error_base_dx");  // of 12
+  const std::size_t half_width = At("half_width_base_dx");
+  const std::size_t squared_distance = At("squared_distance");
+  const std::size_t ellipsoid = At("ellipsoid");
+  const std::size_t false_names = At("false_names");
+  const std::size_t hidden = At("hidden");
+  const std::size_t named = At("named");
 };
+
+double Number(const Row& row, std::size_t at) {
+  if (const auto* real = std::get_if<double>(&row.cells[at])) return *real;
+  if (const auto* whole = std::get_if<std::int64_t>(&row.cells[at]))
+    return static_cast<double>(*whole);
+  return std::numeric_limits<double>::quiet_NaN();
+}
 
 // 1 or 0; NaN where either is not known.
 double IsWithin(double value, double limit) {
@@ -75,30 +94,28 @@ void AddRow(const Columns& columns, const Row& row, Tally* tally) {
     return;
   }
   for (std::size_t k = 0; k < tally->rmspe.size(); ++k)
-    tally->rmspe[k].Add(columns.Number(row, columns.At("rmspe_0") + k));
-  tally->iterations.Add(columns.Number(row, "iterations"));
+    tally->rmspe[k].Add(Number(row, columns.rmspe + k));
+  tally->iterations.Add(Number(row, columns.iterations));
   if (status == NameOf(RowStatus::kUntrusted)) {
     ++tally->untrusted;
     return;
   }
   ++tally->done;
-  tally->rms_position.Add(columns.Number(row, "rms_position"));
-  tally->rms_position_measured.Add(columns.Number(row, "rms_position_measured"));
-  tally->rms_orientation.Add(columns.Number(row, "rms_orientation"));
-  const std::size_t error_at = columns.At("error_base_dx");
-  const std::size_t width_at = columns.At("half_width_base_dx");
+  tally->rms_position.Add(Number(row, columns.rms_position));
+  tally->rms_position_measured.Add(Number(row, columns.rms_position_measured));
+  tally->rms_orientation.Add(Number(row, columns.rms_orientation));
   for (std::size_t i = 0; i < 12; ++i) {
-    const double error = columns.Number(row, error_at + i);
+    const double error = Number(row, columns.error + i);
     tally->error[i].Add(error);
     tally->square[i].Add(error * error);
-    tally->covered[i].Add(IsWithin(std::abs(error), columns.Number(row, width_at + i)));
+    tally->covered[i].Add(IsWithin(std::abs(error), Number(row, columns.half_width + i)));
   }
   tally->ellipsoid.Add(
-      IsWithin(columns.Number(row, "squared_distance"), columns.Number(row, "ellipsoid")));
-  const double false_names = columns.Number(row, "false_names");
+      IsWithin(Number(row, columns.squared_distance), Number(row, columns.ellipsoid)));
+  const double false_names = Number(row, columns.false_names);
   if (std::isnan(false_names)) return;
-  const double hidden = columns.Number(row, "hidden");
-  if (hidden > 0) tally->all_named.Add(columns.Number(row, "named") == hidden ? 1.0 : 0.0);
+  const double hidden = Number(row, columns.hidden);
+  if (hidden > 0) tally->all_named.Add(Number(row, columns.named) == hidden ? 1.0 : 0.0);
   tally->false_names.Add(false_names > 0 ? 1.0 : 0.0);
 }
 

@@ -15,7 +15,7 @@ void WriteCsv(const std::string& path, const Batch& batch, Store* store) {
   AtomicFile file(path);
   std::string piece = CsvHeader(AllColumns(*batch.job));
   store->ForEach([&](const Row& row) {
-    piece += CsvLine(batch.name, row);
+    AppendCsvLine(batch.name, row, &piece);
     if (piece.size() < kPiece) return;
     file.Write(piece);
     piece.clear();
