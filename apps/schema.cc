@@ -39,7 +39,7 @@ const Command& CommandOf(const std::string& schema, const std::string& name) {
 
 int RunSchema(const std::vector<std::string>& words) {
   if (words.empty()) {
-    for (const SchemaInfo& info : Schemas()) fmt::print("{:<12} {}\n", info.name, info.summary);
+    for (const SchemaInfo& info : Schemas()) fmt::print("{:<14} {}\n", info.name, info.summary);
     return kDone;
   }
   const SchemaInfo& info = RequireSchema(words[0]);

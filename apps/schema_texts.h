@@ -22,5 +22,10 @@ std::string_view PivotingSchemaText();
 std::string_view PivotSchemaText();
 std::string_view RunSchemaText();
 std::string_view WrittenSchemaText();
+std::string_view HistoryListSchemaText();
+std::string_view HistoryRecordSchemaText();
+std::string_view HistoryTrendSchemaText();
+std::string_view HistoryCheckSchemaText();
+std::string_view BatchCountsSchemaText();
 
 }  // namespace hexcal

@@ -72,7 +72,12 @@ const std::vector<SchemaInfo>& Schemas() {
       {"plan", "plan.json", &PlanSchemaText},
       {"pivot", "pivot.json", &PivotSchemaText},
       {"run", "run.json, beside each of them", &RunSchemaText},
-      {"written", "--json of commands that only make files", &WrittenSchemaText}};
+      {"written", "--json of commands that only make files", &WrittenSchemaText},
+      {"batch-counts", "--json of batch", &BatchCountsSchemaText},
+      {"history_list", "--json of history list", &HistoryListSchemaText},
+      {"history_record", "--json of history show", &HistoryRecordSchemaText},
+      {"history_trend", "--json of history trend", &HistoryTrendSchemaText},
+      {"history_check", "--json of history verify", &HistoryCheckSchemaText}};
   return schemas;
 }
 

@@ -10,13 +10,14 @@ namespace {
 
 char Lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
-// The only known word that begins with this one, if three letters or more are there.
+// The only known word that begins with this one, if three letters or more are there; two, if only
+// one letter is missing.
 std::string_view OnlyContinuation(std::string_view word,
                                   const std::vector<std::string_view>& known) {
-  constexpr std::size_t kShortest = 3;
-  if (word.size() < kShortest) return {};
-  const auto begins = [word](std::string_view candidate) {
-    return candidate.substr(0, word.size()) == word;
+  if (word.size() < 2) return {};
+  const std::size_t longest = word.size() == 2 ? 3 : std::string_view::npos;
+  const auto begins = [word, longest](std::string_view candidate) {
+    return candidate.size() <= longest && candidate.substr(0, word.size()) == word;
   };
   const auto first = std::find_if(known.begin(), known.end(), begins);
   if (first == known.end() || std::any_of(first + 1, known.end(), begins)) return {};

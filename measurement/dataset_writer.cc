@@ -5,6 +5,7 @@
 
 #include <iterator>
 
+#include "config/yaml_number.h"
 #include "measurement/marker_body_reader.h"
 
 namespace hexcal {
@@ -30,9 +31,7 @@ std::string QuotedYaml(std::string_view text) {
   return quoted + "\"";
 }
 
-std::string Numbers(const Eigen::Vector3d& v) {
-  return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]);
-}
+std::string Numbers(const Eigen::Vector3d& v) { return YamlNumbers(v.data(), 3); }
 
 std::string Noise(const PoseNoise& noise) {
   return fmt::format("  noise: {{position: {}, orientation: {}}}\n",
@@ -43,7 +42,8 @@ std::string Noise(const PoseNoise& noise) {
 std::string RobotPosesMapping(const RobotPoses& robot_poses) {
   std::string text = fmt::format("robot_poses:\n  file: {}\n", kPosesFile);
   if (robot_poses.noise) text += Noise(*robot_poses.noise);
-  if (robot_poses.leg_noise) text += fmt::format("  noise: {{leg: {}}}\n", *robot_poses.leg_noise);
+  if (robot_poses.leg_noise)
+    text += fmt::format("  noise: {{leg: {}}}\n", YamlNumber(*robot_poses.leg_noise));
   return text;
 }
 
@@ -98,7 +98,7 @@ std::string DatasetYaml(const Dataset& dataset) {
     text += fmt::format("gravity: {}\n", Numbers(*dataset.gravity_in_base));
   if (dataset.hexapod) text += "hexapod:\n" + WriteHexapodGeometry(*dataset.hexapod, "  ");
   if (dataset.reference_temperature)
-    text += fmt::format("reference_temperature: {}\n", *dataset.reference_temperature);
+    text += fmt::format("reference_temperature: {}\n", YamlNumber(*dataset.reference_temperature));
   text += RobotPosesMapping(dataset.robot_poses);
   text += TrackerMapping(dataset.tracker);
   if (dataset.measurement) text += MeasurementMapping(*dataset.measurement);

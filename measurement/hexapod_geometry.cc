@@ -5,6 +5,7 @@
 
 #include <cstring>
 
+#include "config/yaml_number.h"
 #include "geometry/rotation_angles.h"
 #include "measurement/checked_values.h"
 
@@ -77,16 +78,10 @@ void RefuseEqualLegs(const HexapodGeometry& g, const Location& where) {
                          "six different legs");
 }
 
-std::string Numbers(const double* values, int size) {
-  std::string text = "[";
-  for (int i = 0; i < size; ++i) text += fmt::format("{}{}", i == 0 ? "" : ", ", values[i]);
-  return text + "]";
-}
-
 std::string WriteSix(const Matrix36d& columns, std::string_view key, const std::string& indent) {
   std::string text = fmt::format("{}{}:\n", indent, key);
   for (int i = 0; i < kNumLegs; ++i)
-    text += fmt::format("{}  - {}\n", indent, Numbers(columns.col(i).data(), 3));
+    text += fmt::format("{}  - {}\n", indent, YamlNumbers(columns.col(i).data(), 3));
   return text;
 }
 
@@ -102,7 +97,7 @@ std::string WriteHome(const HexapodGeometry& geometry) {
   const bool is_exact =
       SameBits(read_back.translation.data(), home.translation.data(), 3) &&
       SameBits(read_back.rotation.coeffs().data(), home.rotation.coeffs().data(), 4);
-  return is_exact ? Numbers(pose_vector.data(), 6) : WritePose(home);
+  return is_exact ? YamlNumbers(pose_vector.data(), 6) : WritePose(home);
 }
 
 }  // namespace
@@ -133,7 +128,7 @@ std::string WriteHexapodGeometry(const HexapodGeometry& geometry, const std::str
   if (geometry.platform_axes_in_platform)
     text += WriteSix(*geometry.platform_axes_in_platform, "platform_axes", indent);
   if (geometry.leg_limits)
-    text += fmt::format("{}leg_limits: {}\n", indent, Numbers(geometry.leg_limits->data(), 2));
+    text += fmt::format("{}leg_limits: {}\n", indent, YamlNumbers(geometry.leg_limits->data(), 2));
   if (geometry.home) text += fmt::format("{}home: {}\n", indent, WriteHome(geometry));
   return text;
 }
@@ -165,7 +160,7 @@ std::string WritePose(const Pose3d& pose) {
   const Eigen::Quaterniond& q = pose.rotation;
   const double wxyz[] = {q.w(), q.x(), q.y(), q.z()};
   return fmt::format(
-      "{{xyz: {}, quaternion: {}}}", Numbers(pose.translation.data(), 3), Numbers(wxyz, 4));
+      "{{xyz: {}, quaternion: {}}}", YamlNumbers(pose.translation.data(), 3), YamlNumbers(wxyz, 4));
 }
 
 }  // namespace hexcal

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "config/nearest_word.h"
+#include "config/yaml_number.h"
 #include "model/data_fault.h"
 #include "model/described_effect.h"
 
@@ -211,7 +212,7 @@ Effect ReadEffect(const YamlNode& node) {
   return effect;
 }
 
-std::string Number(double value) { return std::isnan(value) ? "null" : fmt::format("{}", value); }
+std::string Number(double value) { return std::isnan(value) ? "null" : YamlNumber(value); }
 
 std::string Numbers(const double* values, int size, bool as_list) {
   if (!as_list) return Number(values[0]);

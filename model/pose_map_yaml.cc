@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "config/yaml_number.h"
 #include "measurement/hexapod_geometry.h"
 
 namespace hexcal {
@@ -31,7 +32,7 @@ void ReadBox(const YamlNode& node, PoseMap* map) {
 }
 
 std::string List(const Eigen::VectorXd& numbers) {
-  return fmt::format("[{}]", fmt::join(numbers.data(), numbers.data() + numbers.size(), ", "));
+  return YamlNumbers(numbers.data(), static_cast<int>(numbers.size()));
 }
 
 }  // namespace

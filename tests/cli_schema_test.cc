@@ -213,6 +213,50 @@ TEST(CliSchema, HoldsForWhatFileMakersPrint) {
   EXPECT_THAT(check.Judge(), ::testing::ElementsAre("", "", "", "", ""));
 }
 
+TEST(CliSchema, HoldsForWhatHistoryPrints) {
+  const TemporaryFolder folder;
+  const std::string truth = "--model=" + kExamples + "/neurobot/truth.yaml";
+  for (const char* seed : {"1", "2", "3", "4", "5", "5"}) {
+    const std::string out = std::string("s") + seed;
+    Call({"simulate", kNeurobot, truth, "--seed=" + std::string(seed), "--out=" + out}, folder);
+    const ProgramResult kept = Call(
+        {"calibrate", out + "/neurobot/dataset.yaml", "--history=h.sqlite", "--out=c"}, folder);
+    ASSERT_EQ(kept.status, 0) << kept.err;
+  }
+  Call({"calibrate", "s1/neurobot/dataset.yaml", "--loss=huber", "--history=h.sqlite", "--out=c"},
+       folder);
+  SchemaCheck check;
+  std::string trend;
+  for (const std::vector<std::string>& call : {std::vector<std::string>{"list", "h.sqlite"},
+                                               {"show", "h.sqlite", "2"},
+                                               {"trend", "h.sqlite"},
+                                               {"verify", "h.sqlite"}}) {
+    std::vector<std::string> words = {"history", "--json"};
+    words.insert(words.end(), call.begin(), call.end());
+    const ProgramResult result = Call(words, folder);
+    ASSERT_EQ(result.status, 0) << result.err;
+    const Json json = Json::parse(result.out);
+    check.AddSchema(KindOf(json), SchemaOf(KindOf(json), folder));
+    check.Add(KindOf(json), json);
+    if (call[0] == "trend") trend = result.out;
+  }
+  EXPECT_THAT(check.Judge(), ::testing::ElementsAre("", "", "", ""));
+  for (const char* part :
+       {"same_readings_as\":5", "drift\":{", "moving_mean\":{", "made_otherwise\":[{"})
+    EXPECT_THAT(trend, HasSubstr(part));
+}
+
+TEST(CliSchema, HoldsForWhatBatchPrints) {
+  const TemporaryFolder folder;
+  const ProgramResult result =
+      Call({"batch", kExamples + "/batch/datasets.yaml", "--json", "--out=b"}, folder);
+  ASSERT_EQ(result.status, 0) << result.err;
+  SchemaCheck check;
+  check.AddSchema("batch-counts", SchemaOf("batch-counts", folder));
+  check.Add("batch-counts", Json::parse(result.out));
+  EXPECT_THAT(check.Judge(), ::testing::ElementsAre(""));
+}
+
 // What goes to stdout is what goes to the file.
 TEST(CliSchema, HoldsForJsonOnStdout) {
   const TemporaryFolder folder;

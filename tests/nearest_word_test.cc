@@ -69,6 +69,8 @@ TEST(NearestWord, TakesABeginningThatOnlyOneHas) {
   EXPECT_EQ(NearestWord("cal", known), "calibrate");
   EXPECT_EQ(NearestWord("ca", known), "");
   EXPECT_EQ(NearestWord("comp", known), "");
+  EXPECT_EQ(NearestWord("ou", {"out", "outliers"}), "out");
+  EXPECT_EQ(NearestWord("ou", {"out", "our"}), "");
 }
 
 TEST(NearestWord, IsAskedForInOneForm) {

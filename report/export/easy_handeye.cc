@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include "config/yaml_number.h"
 #include "geometry/pose.h"
 #include "report/export/writers.h"
 
@@ -46,21 +47,18 @@ std::string File(const ExportInput& input, bool is_tool) {
       input.frames.platform,
       is_tool ? input.frames.tool : input.frames.world,
       is_tool ? input.frames.world : input.frames.tool,
-      t.x(),
-      t.y(),
-      t.z(),
-      q.x(),
-      q.y(),
-      q.z(),
-      q.w());
+      YamlNumber(t.x()),
+      YamlNumber(t.y()),
+      YamlNumber(t.z()),
+      YamlNumber(q.x()),
+      YamlNumber(q.y()),
+      YamlNumber(q.z()),
+      YamlNumber(q.w()));
   if (!mount.covariance) return text;
   const Matrix6d covariance = CovarianceInParent(mount);
   text += "covariance:  # x y z and turns about the parent's x y z, by rows, m and rad\n";
-  for (int i = 0; i < 6; ++i) {
-    text += "  - [";
-    for (int j = 0; j < 6; ++j) text += fmt::format("{}{}", j == 0 ? "" : ", ", covariance(i, j));
-    text += "]\n";
-  }
+  for (int i = 0; i < 6; ++i)  // symmetric: a column is a row
+    text += fmt::format("  - {}\n", YamlNumbers(covariance.col(i).data(), 6));
   return text;
 }
 

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "config/input_error.h"
+#include "config/yaml_number.h"
 #include "report/export/writers.h"
 
 namespace hexcal {
@@ -22,24 +23,22 @@ std::string Message(const ExportInput& input, bool is_tool) {
       "turns about fixed axes\n"
       "header:\n  frame_id: {}\n"
       "pose:\n  pose:\n    position: {{x: {}, y: {}, z: {}}}\n"
-      "    orientation: {{x: {}, y: {}, z: {}, w: {}}}\n  covariance: [",
+      "    orientation: {{x: {}, y: {}, z: {}, w: {}}}\n  covariance: ",
       kExportMark,
       found.dataset,
       is_tool ? input.frames.tool : input.frames.base,
       is_tool ? input.frames.platform : input.frames.world,
       is_tool ? input.frames.platform : input.frames.world,
-      t.x(),
-      t.y(),
-      t.z(),
-      q.x(),
-      q.y(),
-      q.z(),
-      q.w());
+      YamlNumber(t.x()),
+      YamlNumber(t.y()),
+      YamlNumber(t.z()),
+      YamlNumber(q.x()),
+      YamlNumber(q.y()),
+      YamlNumber(q.z()),
+      YamlNumber(q.w()));
   const Matrix6d covariance = CovarianceInParent(mount);
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j)
-      text += fmt::format("{}{}", i + j == 0 ? "" : ", ", covariance(i, j));
-  return text + "]\n";
+  // Symmetric: by columns as by rows.
+  return text + YamlNumbers(covariance.data(), 36) + "\n";
 }
 
 }  // namespace

@@ -45,9 +45,9 @@ constexpr const char* kPoses = R"(format: hexcal/dataset/1
 name: bench-2
 units: {length: m, angle: rad}
 hexapod:
-  base_joints: [[100, 0, 0], [50, 87, 0], [-50, 87, 0], [-100, 0, 0], [-50, -87, 0], [50, -87, 0]]
-  platform_joints: [[60, 10, 0], [20, 57, 0], [-40, 47, 0], [-60, -10, 0], [-20, -57, 0], [40, -47, 0]]
-  home: {xyz: [0, 0, 200], quaternion: [1, 0, 0, 0]}
+  base_joints: [[0.1, 0, 0], [0.05, 0.087, 0], [-0.05, 0.087, 0], [-0.1, 0, 0], [-0.05, -0.087, 0], [0.05, -0.087, 0]]
+  platform_joints: [[0.06, 0.01, 0], [0.02, 0.057, 0], [-0.04, 0.047, 0], [-0.06, -0.01, 0], [-0.02, -0.057, 0], [0.04, -0.047, 0]]
+  home: {xyz: [0, 0, 0.2], quaternion: [1, 0, 0, 0]}
 robot_poses:
   rows:
     - [pose, x, y, z, rx, ry, rz]
