@@ -187,7 +187,7 @@ class Judgement {
       warnings.push_back("the data do not determine " + direction);
     // Nothing was stated that could be doubted.
     if (weighting_.levels_estimated && !observations_.has_robot_noise) return;
-    AddNoiseDoubts(estimate_.noise_scale, &warnings);
+    AddNoiseDoubts(estimate_.noise_scale, estimate_.degrees_of_freedom, &warnings);
   }
 
   const Observations& observations_;

@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/quantiles.h"
+
 namespace hexcal {
 namespace {
 
-// Residuals this many times larger or smaller than the stated noise explains put it in doubt.
-constexpr double kDoubtfulScale = 2.0;
+// Residuals this many times larger or smaller than the stated noise explains put it in doubt, and
+// already this many times larger where chance makes them so once in a thousand measurements.
+constexpr double kDoubtfulScale = 2.0, kSuspectScale = 1.1, kChance = 1e-3;
 // A variance below this part of the other side's is none.
 constexpr double kNegligible = 1e-6;
 
@@ -48,8 +51,10 @@ NoiseSide SideOfNoise(const Vector6d& tracker_variance, const Vector6d& robot_va
   return is_robot_alone ? NoiseSide::kRobot : NoiseSide::kBoth;
 }
 
-void AddNoiseDoubts(double scale, std::vector<std::string>* warnings) {
-  if (scale > kDoubtfulScale)
+void AddNoiseDoubts(double scale, double degrees_of_freedom, std::vector<std::string>* warnings) {
+  if (scale > kDoubtfulScale ||
+      (scale > kSuspectScale &&
+       ChiSquareTail(scale * scale * degrees_of_freedom, degrees_of_freedom) < kChance))
     warnings->push_back(
         fmt::format("the residuals are {:.3g} times larger than the stated noise explains: the "
                     "noise is larger, or the model misses something",

@@ -23,6 +23,6 @@ Vector6d RobotVariance(const Observations& observations, const BaseAndTool& moun
 NoiseSide SideOfNoise(const Vector6d& tracker_variance, const Vector6d& robot_variance);
 
 // Doubts in a stated noise of which the residuals are scale times as large.
-void AddNoiseDoubts(double scale, std::vector<std::string>* warnings);
+void AddNoiseDoubts(double scale, double degrees_of_freedom, std::vector<std::string>* warnings);
 
 }  // namespace hexcal

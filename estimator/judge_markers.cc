@@ -143,7 +143,7 @@ class MarkerJudgement {
                       "from each other: the model misses something",
                       *solution_.over_repeats));
     if (!solution_.sigma_estimated || observations_.has_robot_noise)
-      AddNoiseDoubts(estimate_.noise_scale, &warnings);
+      AddNoiseDoubts(estimate_.noise_scale, estimate_.degrees_of_freedom, &warnings);
   }
 
   const Observations& observations_;

@@ -169,6 +169,25 @@ TEST(Calibrate, AStatedNoiseThatIsTooSmallIsDoubted) {
   EXPECT_EQ(estimate.warnings.size(), 1u);
 }
 
+// Once in a thousand measurements by chance; as soon as it shows, else.
+TEST(Calibrate, AStatedNoiseIsDoubtedWhenChanceDoesNotExplainTheResiduals) {
+  auto rng = SeededByTest();
+  const BaseAndTool truth = AnyMounts(rng);
+  const auto doubts = [&](double stated_variance) {
+    int count = 0;
+    for (int draw = 0; draw < 200; ++draw) {
+      auto rows = HexapodObservations(rng, truth, 60);
+      testing::AddNoise(rng, TrackerLikeCovariance(), &rows);
+      count += static_cast<int>(
+          Calibrate(testing::KnownNoise(rows, stated_variance * TrackerLikeCovariance()), {}, {})
+              .warnings.size());
+    }
+    return count;
+  };
+  EXPECT_LE(doubts(1.0), 2);
+  EXPECT_GE(doubts(1.0 / (1.25 * 1.25)), 198);
+}
+
 // To rounding, not only until the cost is flat: else the order of rows shows.
 TEST(Calibrate, TheGradientIsZeroAtTheSolution) {
   auto rng = SeededByTest();
