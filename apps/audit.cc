@@ -145,7 +145,7 @@ int RunAudit(const std::vector<std::string>& files) {
                 {"model.yaml", WriteMachine(MachineOf(dataset, audit.estimate))},
                 {"run.json", RunJson(record)},
                 {"result.json", result},
-                {"report.html", AuditHtml(identity, record, audit)}});
+                {"report.html", AuditHtml(identity, record, audit, result)}});
   entry.Append();
   PrintNewWarnings(dataset, audit.estimate.warnings, "audit.json");
   if (FLAGS_json && !FLAGS_quiet)

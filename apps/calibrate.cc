@@ -161,6 +161,7 @@ class CalibrateRun {
                          CalibrateHtml(header,
                                        record,
                                        estimate,
+                                       FrameGraphOf(job->dataset, {}),
                                        MakeScene(job->dataset, observations, estimate),
                                        MakeLeftOver(job->dataset, observations, estimate)));
     }

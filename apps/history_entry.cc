@@ -22,11 +22,6 @@ std::string UserName() {
   return fmt::format("uid {}", getuid());
 }
 
-std::string HostName() {
-  std::array<char, 256> name = {};
-  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
-}
-
 }  // namespace
 
 void CheckHistoryFlag() {
@@ -45,7 +40,7 @@ HistoryEntry::HistoryEntry(std::string_view command,
     const std::shared_ptr<const std::string>& table = dataset.measurement->where.file;
     HistoryRecord record = MakeHistoryRecord(
         command, table ? *table : dataset.path, run, header, estimate, effects, result);
-    record.author = {UserName(), HostName(), FLAGS_operator};
+    record.author = {UserName(), run.host.name, FLAGS_operator};
     pending_ = std::make_unique<PendingRecord>(FLAGS_history, std::move(record));
     log_ = MakeChangeLog(FLAGS_history, *pending_);
   } catch (...) {

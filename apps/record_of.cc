@@ -11,6 +11,7 @@
 #include "apps/command.h"
 #include "apps/dataset_files.h"
 #include "apps/flag_value.h"
+#include "apps/host.h"
 #include "apps/version.h"
 
 namespace hexcal {
@@ -46,6 +47,8 @@ RunRecord RecordOf(std::string_view command,
     const FlagSpec& spec = *FindFlag(flag.name);
     const std::string value = CurrentText(spec);
     record.settings.emplace_back(flag.name, value);
+    if (!WasGiven(spec) && !spec.default_text.empty())
+      record.not_set.emplace_back(flag.name, spec.default_text);
     if (flag.name != "config" && WasGiven(spec))
       record.call += fmt::format(" --{}={}", flag.name, Quoted(value));
   }
@@ -53,6 +56,7 @@ RunRecord RecordOf(std::string_view command,
   record.started_utc = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   record.seconds = seconds;
   record.threads = threads;
+  record.host = ThisHost();
   return record;
 }
 

@@ -263,6 +263,9 @@ Audit MakeAudit(AuditInput input) {
   for (const StatedSource& stated : audit.requirements.sources)
     audit.sources.push_back(stated.source);
   audit.workspace = MakeWorkspace(audit.requirements.workspace, input.observations);
+  std::vector<std::string> point_names;
+  for (const NamedPoint& point : audit.requirements.points) point_names.push_back(point.name);
+  audit.frames = FrameGraphOf(input.dataset, std::move(point_names));
   audit.scene = MakeScene(input.dataset, input.observations, audit.estimate);
   audit.left_over = MakeLeftOver(input.dataset, input.observations, audit.estimate);
   audit.global = GlobalTestOf(audit.estimate);

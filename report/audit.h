@@ -11,6 +11,7 @@
 #include "report/accuracy_map.h"
 #include "report/correlation.h"
 #include "report/earlier_result.h"
+#include "report/frame_graph.h"
 #include "report/left_over.h"
 #include "report/requirement.h"
 #include "report/result_json.h"
@@ -102,6 +103,7 @@ struct Audit {
   bool robot_is_stated = false;
   Estimate estimate;
   Comparison comparison;
+  FrameGraph frames;
   Scene scene;
   LeftOver left_over;
   GlobalTest global;

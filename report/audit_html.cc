@@ -81,6 +81,12 @@ void AddIdentification(const AuditIdentity& identity,
   for (const auto& [key, value] : audit.requirements.identification)
     table.rows.push_back({key, value});
   table.rows.push_back({"run", record.started_utc});
+  table.rows.push_back(
+      {"took", fmt::format("{:.3g} s, at most {} threads", record.seconds, record.threads)});
+  table.rows.push_back(
+      {"host",
+       fmt::format(
+           "{}, {} processors, {}", record.host.name, record.host.processors, record.host.system)});
   table.rows.push_back({"poses measured", fmt::format("{}", audit.estimate.poses.size())});
   page->Table(table);
   HtmlTable files = {{{"input"}, {"SHA-256"}}, {}};
@@ -99,6 +105,7 @@ void AddMeasurand(const Audit& audit, HtmlPage* page) {
       "pose "
       "T_A^B. Its error is predicted minus true position; what is judged is the length of that "
       "error.");
+  page->Figure(FrameGraphDrawing(audit.frames));
   page->List(
       {"M: the tracker.",
        "W, the world: the base markers' body (of measured poses: the frame they are given in).",
@@ -148,6 +155,25 @@ void AddModel(const Audit& audit, HtmlPage* page) {
            : "Nothing is stated of the robot's own error; it is left out, and nothing passes."});
 }
 
+// For programs that are given nothing but the page.
+void AddData(const AuditIdentity& identity,
+             const Audit& audit,
+             std::string_view result,
+             HtmlPage* page) {
+  constexpr std::size_t kMostBytes = 8 << 20;  // beyond, the page would not open well
+  const std::string json = AuditJson(identity, audit);
+  page->Heading("For programs");
+  if (json.size() + result.size() > kMostBytes)
+    return page->Paragraph(
+        "audit.json and result.json lie beside this report; of so many poses they are too large to "
+        "be in it.");
+  page->Paragraph(
+      "audit.json and result.json are in this page, too: the texts of its elements \"audit\" and "
+      "\"result\", script elements of type application/json.");
+  page->Data("audit", json);
+  page->Data("result", result);
+}
+
 void AddGlossary(HtmlPage* page) {
   page->Section("Words");
   page->List(
@@ -163,7 +189,10 @@ void AddGlossary(HtmlPage* page) {
 
 }  // namespace
 
-std::string AuditHtml(const AuditIdentity& identity, const RunRecord& record, const Audit& audit) {
+std::string AuditHtml(const AuditIdentity& identity,
+                      const RunRecord& record,
+                      const Audit& audit,
+                      std::string_view result) {
   HtmlPage page(
       "audit",
       "Accuracy audit: " + audit.header.dataset,
@@ -182,6 +211,7 @@ std::string AuditHtml(const AuditIdentity& identity, const RunRecord& record, co
   AddChange(audit, &page);
   if (identity.log) AddChangeLog(*identity.log, &page);
   AddReproduction(record, audit.estimate.warnings, "result.json, model.yaml and audit.json", &page);
+  AddData(identity, audit, result, &page);
   AddGlossary(&page);
   return page.Html();
 }

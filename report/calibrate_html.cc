@@ -64,6 +64,7 @@ void AddFit(const ResultHeader& header,
 std::string CalibrateHtml(const ResultHeader& header,
                           const RunRecord& record,
                           const Estimate& estimate,
+                          const FrameGraph& frames,
                           const Scene& scene,
                           const LeftOver& left) {
   HtmlPage page("calibrate",
@@ -72,6 +73,8 @@ std::string CalibrateHtml(const ResultHeader& header,
                             estimate.poses.size()));
   AddVerdict(estimate, &page);
   AddMounts(estimate, &page);
+  page.Section("Frames");
+  page.Figure(FrameGraphDrawing(frames));
   AddFit(header, estimate, scene, left, &page);
   AddReproduction(record, estimate.warnings, "result.json and model.yaml", &page);
   return page.Html();

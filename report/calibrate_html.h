@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "report/frame_graph.h"
 #include "report/left_over.h"
 #include "report/result_json.h"
 #include "report/run_record.h"
@@ -14,6 +15,7 @@ namespace hexcal {
 std::string CalibrateHtml(const ResultHeader& header,
                           const RunRecord& record,
                           const Estimate& estimate,
+                          const FrameGraph& frames,
                           const Scene& scene,
                           const LeftOver& left);
 

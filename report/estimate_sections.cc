@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "geometry/rotation_angles.h"
@@ -102,8 +103,15 @@ void AddReproduction(const RunRecord& record,
       files));
   if (!record.call.empty()) page->Code(record.call);
   HtmlTable settings = {{{"setting"}, {"value"}}, {}};
-  for (const auto& [name, value] : record.settings)
-    if (!value.empty()) settings.rows.push_back({name, value});
+  for (const auto& [name, value] : record.settings) {
+    const auto not_set = std::find_if(record.not_set.begin(),
+                                      record.not_set.end(),
+                                      [&name = name](const auto& s) { return s.first == name; });
+    if (not_set != record.not_set.end())
+      settings.rows.push_back({name, fmt::format("not set ({})", not_set->second)});
+    else if (!value.empty())
+      settings.rows.push_back({name, value});
+  }
   page->Table(settings);
   page->Heading("Inputs");
   page->List(record.inputs);

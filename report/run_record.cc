@@ -25,6 +25,9 @@ std::string RunJson(const RunRecord& record) {
   run["started"] = record.started_utc;
   run["seconds"] = record.seconds;
   run["threads"] = record.threads;
+  run["host"] = {{"name", record.host.name},
+                 {"processors", record.host.processors},
+                 {"system", record.host.system}};
   for (const MethodTime& m : record.methods)
     run["methods"].push_back({{"name", m.name},
                               {"seconds", m.seconds},

@@ -15,6 +15,13 @@ struct MethodTime {
   int iterations = 0;  // 0: none, a closed form
 };
 
+// The machine that a run was made on.
+struct Host {
+  std::string name;
+  int processors = 0;  // that are online
+  std::string system;  // of operation: its name, release and the kind of processor
+};
+
 // The record of a history that a run has become.
 struct HistoryMark {
   std::string file;
@@ -26,11 +33,14 @@ struct HistoryMark {
 struct RunRecord {
   std::string version;                                        // of hexcal and its libraries, lines
   std::vector<std::pair<std::string, std::string>> settings;  // flags and their values
-  std::string call;                                           // the command, for a shell; reports
-  std::vector<std::string> inputs;                            // the files that were read
-  std::string started_utc;                                    // ISO 8601
+  // Those settings that stand at a default which their value does not say, and what that is.
+  std::vector<std::pair<std::string, std::string>> not_set;
+  std::string call;                 // the command, for a shell; reports
+  std::vector<std::string> inputs;  // the files that were read
+  std::string started_utc;          // ISO 8601
   double seconds = 0.0;
   int threads = 1;
+  Host host = {};
   std::vector<MethodTime> methods;     // hexcal compare
   std::optional<HistoryMark> history;  // with --history
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The reports of audit, calibrate and compare in a real browser, offline. Skipped where there is no
-// Chromium.
+// The reports of audit, calibrate and compare in a real browser, offline. Fails where there is
+// no Chromium.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,6 +32,15 @@ int Count(const std::string& text, const std::string& part) {
 
 std::string Before(const std::string& text, const char* part) {
   return text.substr(0, text.find(part));
+}
+
+// The JSON for programs that stands in the page under this id, as the browser has it.
+nlohmann::json DataOf(const std::string& dom, const std::string& id) {
+  const std::string tag = "<script type=\"application/json\" id=\"" + id + "\">";
+  const std::size_t at = dom.find(tag);
+  if (at == std::string::npos) return {};
+  const std::size_t begin = at + tag.size();
+  return nlohmann::json::parse(dom.substr(begin, dom.find("</script>", begin) - begin));
 }
 
 // Drawing in software is slow, and said to be; nothing else is said.
@@ -74,7 +83,9 @@ TEST(AuditInBrowser, IsDrawnSaysWhatItsJsonSaysAndItsNamesAreOnlyNames) {
   testing::Append(folder.Path("h.sqlite"), kept);
   kept.readings_sha256 = hostile;
   identity.log = MakeChangeLog(hostile, PendingRecord(folder.Path("h.sqlite"), kept));
-  const std::string html = AuditHtml(identity, record, audit);
+  record.host = {hostile, 2, hostile};
+  const std::string result = ResultJson(audit.header, audit.estimate);
+  const std::string html = AuditHtml(identity, record, audit, result);
   // The libraries stand behind the page and have tags in their texts.
   const std::string dom = Before(browser.Dom(html), "plotly.js (cartesian");
   ExpectQuiet(browser.Console());
@@ -88,6 +99,9 @@ TEST(AuditInBrowser, IsDrawnSaysWhatItsJsonSaysAndItsNamesAreOnlyNames) {
                     HasSubstr("<title>Accuracy audit: neurobot</title>"),
                     Not(HasSubstr("<img")),
                     HasSubstr("&lt;img")));
+  EXPECT_EQ(Count(dom, "<svg class=\"drawing\""), 1);
+  EXPECT_EQ(DataOf(dom, "audit"), json);
+  EXPECT_EQ(DataOf(dom, "result"), nlohmann::json::parse(result));
   EXPECT_LT(html.size(), std::size_t{8} << 20);
   EXPECT_THAT(browser.Pdf(html).substr(0, 8), StartsWith("%PDF"));
   ExpectQuiet(browser.Console());
@@ -110,10 +124,12 @@ TEST(CalibrationInBrowser, IsDrawnAsItsComparisonIs) {
   map.rotation_errors = {0.1, 1.0}, map.translation_errors = {0.01}, map.share = {{1.0}, {0.5}};
   RunRecord record;
   record.inputs = {hostile};
+  const FrameGraph frames = FrameGraphOf(example.dataset, {hostile});
   const Scene scene = MakeScene(example.dataset, example.observations, example.estimate);
   for (const auto& [html, pictures] :
        {std::pair{
-            CalibrateHtml({"demo", "nonlinear", "pose", ""}, record, example.estimate, scene, left),
+            CalibrateHtml(
+                {"demo", "nonlinear", "pose", ""}, record, example.estimate, frames, scene, left),
             10},
         std::pair{CompareHtml("demo", record, example.comparison, scene, {}), 8}}) {
     const std::string dom = Before(browser.Dom(html), "plotly.js (cartesian");

@@ -73,7 +73,14 @@ TEST_F(CliAudit, LeavesItsFilesAndSaysWhatIsInThem) {
   EXPECT_THAT(Read("report.html"), HasSubstr("id=\"verdict\"><strong>PASS</strong>"));
   EXPECT_THAT(Read("report.html"), HasSubstr(audit["id"].get<std::string>()));
   EXPECT_EQ(Json::parse(Read("result.json"))["residual"], "marker");
-  EXPECT_EQ(Json::parse(Read("run.json"))["settings"]["folds"], "2");
+  const Json run = Json::parse(Read("run.json"));
+  EXPECT_EQ(run["settings"]["folds"], "2");
+  EXPECT_GE(run["host"]["processors"].get<int>(), 1);
+  EXPECT_THAT(Read("report.html"), HasSubstr(run["host"]["name"].get<std::string>()));
+  EXPECT_THAT(Read("report.html"),
+              HasSubstr("<td>noise_position</td><td>not set (estimated)</td>"));
+  for (const char* name : {"audit.json", "result.json"})  // no times, no host
+    EXPECT_FALSE(Json::parse(Read(name)).contains("host")) << name;
   EXPECT_EQ(Json::parse(Read("run.json"))["settings"]["tolerance"], "1e-12");
 }
 

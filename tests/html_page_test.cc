@@ -38,6 +38,15 @@ TEST(JsonForScript, CannotEndItsScriptAndReadsBack) {
   EXPECT_EQ(nlohmann::ordered_json::parse(text), value);
 }
 
+// A name of a file may be anything, and may not end the script.
+TEST(JsonTextForScript, ChangesNothingButWhatCouldEndItsScript) {
+  const std::string text = "{\n  \"name\": \"</script><!-- & > \\u003c\"\n}\n";
+  const std::string escaped = JsonTextForScript(text);
+  EXPECT_THAT(escaped, Not(HasSubstr("<")));
+  EXPECT_EQ(nlohmann::ordered_json::parse(escaped), nlohmann::ordered_json::parse(text));
+  EXPECT_EQ(JsonTextForScript("{\"a\": 1}\n"), "{\"a\": 1}\n");
+}
+
 TEST(PolicyHash, IsThatOfTheStandardsExample) {
   // FIPS 180: SHA-256 of "abc" and of nothing, in base 64.
   EXPECT_EQ(PolicyHash("abc"), "'sha256-ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0='");

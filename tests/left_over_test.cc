@@ -107,6 +107,7 @@ TEST(LeftOver, AReportOfSixtyPosesStaysLight) {
       CalibrateHtml({"demo", "nonlinear", "marker", ""},
                     {},
                     found.estimate,
+                    FrameGraphOf(dataset, {}),
                     MakeScene(dataset, MakeObservations(dataset), found.estimate),
                     found.left);
   EXPECT_LT(html.size(), std::size_t{8} << 20);

@@ -83,6 +83,18 @@ std::string JsonForScript(const Json& value) {
   return text;
 }
 
+std::string JsonTextForScript(std::string_view json) {
+  std::string text;
+  text.reserve(json.size());
+  for (const char c : json) {
+    if (c == '<')
+      text += "\\u003c";
+    else
+      text += c;
+  }
+  return text;
+}
+
 std::string PolicyHash(std::string_view text) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest;
   unsigned int size = 0;

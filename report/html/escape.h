@@ -17,6 +17,9 @@ std::string EscapeLabel(std::string_view text);
 // JSON that cannot end the <script> in which it stands.
 std::string JsonForScript(const nlohmann::ordered_json& value);
 
+// The same of JSON as text, which may have < in its strings only: nothing else is changed.
+std::string JsonTextForScript(std::string_view json);
+
 // 'sha256-...' for a Content-Security-Policy.
 std::string PolicyHash(std::string_view text);
 

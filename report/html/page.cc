@@ -32,6 +32,12 @@ std::string TableHtml(const HtmlTable& table) {
   return html + "</tbody></table></div>\n";
 }
 
+std::string Caption(std::string_view shows, std::string_view good) {
+  return fmt::format("<figcaption><b>Shows</b> {} <b>Good looks like</b> {}</figcaption>\n",
+                     EscapeHtml(shows),
+                     EscapeHtml(good));
+}
+
 std::string_view ClassOf(Tone tone) {
   return tone == Tone::kGood ? "good" : tone == Tone::kWarn ? "warn" : "bad";
 }
@@ -93,6 +99,12 @@ void HtmlPage::Code(std::string_view text) {
   body_ += fmt::format("<pre>{}</pre>\n", EscapeHtml(text));
 }
 
+void HtmlPage::Data(std::string_view id, std::string_view json) {
+  body_ += fmt::format("<script type=\"application/json\" id=\"{}\">{}</script>\n",
+                       EscapeHtml(id),
+                       JsonTextForScript(json));
+}
+
 void HtmlPage::Verdict(Tone tone,
                        std::string_view id,
                        std::string_view word,
@@ -106,10 +118,7 @@ void HtmlPage::Verdict(Tone tone,
 }
 
 void HtmlPage::Figure(const Chart& chart) {
-  const std::string caption =
-      fmt::format("<figcaption><b>Shows</b> {} <b>Good looks like</b> {}</figcaption>\n",
-                  EscapeHtml(chart.shows),
-                  EscapeHtml(chart.good));
+  const std::string caption = Caption(chart.shows, chart.good);
   body_ += fmt::format("<figure>\n<h3>{}</h3>\n", EscapeHtml(chart.title));
   if (HasCharts()) {
     const int number = ++charts_;
@@ -133,6 +142,20 @@ void HtmlPage::Figure(const Chart& chart) {
     if (!chart.table.columns.empty()) body_ += TableHtml(chart.table);
   }
   body_ += "</figure>\n";
+}
+
+void HtmlPage::Figure(const Drawing& drawing) {
+  constexpr double kLargestScale = 1.35;
+  body_ += fmt::format(
+      "<figure>\n<h3>{0}</h3>\n<svg class=\"drawing\" role=\"img\" aria-label=\"{0}\" "
+      "viewBox=\"0 0 {1} {2}\" style=\"width:100%;max-width:{3:.0f}px\" fill=\"currentColor\" "
+      "font-size=\"12.5\">\n{4}</svg>\n{5}</figure>\n",
+      EscapeHtml(drawing.title),
+      drawing.width,
+      drawing.height,
+      kLargestScale * drawing.width,
+      drawing.svg,
+      Caption(drawing.shows, drawing.good));
 }
 
 void HtmlPage::Figures(const std::vector<Chart>& charts) {

@@ -38,6 +38,15 @@ struct Chart {
   bool is_in_space = false;
 };
 
+// A picture that needs no library: SVG elements in a box of width times height units, which are
+// 1.35 pixels at most. What comes from a file in svg is escaped by who draws it;
+// colours are the page's (currentColor, var(--link)).
+struct Drawing {
+  std::string title, shows, good;
+  int width = 0, height = 0;
+  std::string svg;
+};
+
 // How loud a box is.
 enum class Tone { kGood, kWarn, kBad };
 
@@ -57,9 +66,12 @@ class HtmlPage {
   void Table(const HtmlTable& table);
   void Tables(const std::vector<TitledTable>& tables);  // side by side where there is room
   void Code(std::string_view text);
+  // JSON for programs: <script type="application/json" id="...">, which shows nothing.
+  void Data(std::string_view id, std::string_view json);
   // A sentence in a box under a word; `id` marks it for programs that read the page.
   void Verdict(Tone tone, std::string_view id, std::string_view word, std::string_view sentence);
   void Figure(const Chart& chart);
+  void Figure(const Drawing& drawing);
   void Figures(const std::vector<Chart>& charts);  // side by side where there is room
 
   std::string Html() const;
