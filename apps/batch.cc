@@ -183,7 +183,18 @@ class BatchRun {
     return RunChunks(manifest_.batch, options, sink);
   }
 
-  // Of a study; else empty. By a connection of its own, for it runs beside WriteCsv.
+  void WriteResults(int threads, Store* store) const {
+    std::vector<std::unique_ptr<Store>> others;
+    std::vector<Store*> stores = {store};
+    for (int i = 1; i < threads; ++i) {
+      others.push_back(
+          std::make_unique<Store>(store_path_, manifest_.batch, Database::Access::kRead));
+      stores.push_back(others.back().get());
+    }
+    WriteCsv(folder_.PathOf("results.csv"), manifest_.batch, stores);
+  }
+
+  // Of a study; else empty. By a connection of its own, for it runs beside WriteResults.
   std::vector<StudySummary> Summaries() const {
     if (manifest_.study == nullptr) return {};
     Store store(store_path_, manifest_.batch, Database::Access::kRead);
@@ -191,10 +202,10 @@ class BatchRun {
   }
 
   int Finish(Store* store) {
-    const auto when = ThreadsFor(FLAGS_threads) > 1 ? std::launch::async : std::launch::deferred;
-    std::future<std::vector<StudySummary>> summarised =
-        std::async(when, [this] { return Summaries(); });
-    WriteCsv(folder_.PathOf("results.csv"), manifest_.batch, store);
+    const int threads = ThreadsFor(FLAGS_threads);
+    std::future<std::vector<StudySummary>> summarised = std::async(
+        threads > 1 ? std::launch::async : std::launch::deferred, [this] { return Summaries(); });
+    WriteResults(threads, store);
     const std::vector<StudySummary> summaries = summarised.get();
     std::vector<std::pair<std::string, std::string>> files;
     if (manifest_.study != nullptr)

@@ -142,9 +142,11 @@ bool Store::Find(std::int64_t index, Row* row) {
   return found;
 }
 
-void Store::ForEach(const std::function<void(const Row&)>& use) {
+void Store::ForEach(std::int64_t first,
+                    std::int64_t end,
+                    const std::function<void(const Row&)>& use) {
   select_->Reset();
-  select_->Bind(1, study_).Bind(2, 0).Bind(3, INT64_MAX);
+  select_->Bind(1, study_).Bind(2, first).Bind(3, end - 1);
   while (select_->Step()) use(Read(*select_));
   select_->Reset();
 }

@@ -38,7 +38,8 @@ class Store {
   std::vector<std::string> Messages(RowStatus status, int at_most);
   void Remove(RowStatus status);  // to be worked on again, with all rows of the same task
   // In the order of their indices.
-  void ForEach(const std::function<void(const Row&)>& use);
+  void ForEach(std::int64_t first, std::int64_t end, const std::function<void(const Row&)>& use);
+  void ForEach(const std::function<void(const Row&)>& use) { ForEach(0, INT64_MAX, use); }
 
  private:
   void Describe(const Batch& batch);

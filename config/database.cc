@@ -32,7 +32,8 @@ bool IsDamage(int code) {
 Database::Database(const std::string& path, const DatabaseKind& kind, Access access) : path_(path) {
   // To read, too: what a killed writer left half done must be taken back first. Where the file may
   // not be written SQLite opens it for reading by itself.
-  const int flags = SQLITE_OPEN_READWRITE | (access == Access::kWrite ? SQLITE_OPEN_CREATE : 0);
+  const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_NOMUTEX |
+                    (access == Access::kWrite ? SQLITE_OPEN_CREATE : 0);
   const int opened = sqlite3_open_v2(path.c_str(), &handle_, flags, nullptr);
   try {
     if (handle_ == nullptr) throw OutputError(path + ": out of memory");

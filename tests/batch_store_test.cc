@@ -142,16 +142,19 @@ TEST(ChunkFiles, APartIsCompletedLater) {
 
 TEST(WriteCsv, IsTheSameHoweverTheRowsCame) {
   const TemporaryFolder folder;
-  const Batch batch = ToyBatch(20);
+  constexpr int kTasks = 600;  // several pieces for each of three connections, and a part of one
+  const Batch batch = ToyBatch(kTasks);
   Store forward(folder.Path("f"), batch), backward(folder.Path("b"), batch);
   std::string expected = "study,idx,status,message,count,x,note\n";
-  for (std::int64_t task = 0; task < 20; ++task) {
+  for (std::int64_t task = 0; task < kTasks; ++task) {
     forward.Insert(RowsOf(batch, task));
-    backward.Insert(RowsOf(batch, 19 - task));
+    backward.Insert(RowsOf(batch, kTasks - 1 - task));
     for (const Row& row : RowsOf(batch, task)) expected += CsvLine("toy", row);
   }
-  WriteCsv(folder.Path("f.csv"), batch, &forward);
-  WriteCsv(folder.Path("b.csv"), batch, &backward);
+  WriteCsv(folder.Path("f.csv"), batch, {&forward});
+  Store second(folder.Path("b"), batch, Database::Access::kRead);
+  Store third(folder.Path("b"), batch, Database::Access::kRead);
+  WriteCsv(folder.Path("b.csv"), batch, {&backward, &second, &third});
   EXPECT_EQ(folder.Read("f.csv"), expected);
   EXPECT_EQ(folder.Read("b.csv"), expected);
   EXPECT_NE(expected.find("\ntoy,11,failed,no luck,,,\n"), std::string::npos);
