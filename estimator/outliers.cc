@@ -27,7 +27,6 @@ class Snooping {
   Snooping(const Observations& observations, const std::optional<NoiseLevels>& noise, double alpha)
       : observations_(observations),
         count_(observations.items.size()),
-        alpha_(alpha),
         of_one_(-std::expm1(std::log1p(-alpha) / static_cast<double>(count_))),
         fit_(observations, noise),
         kept_(count_, false),
@@ -154,7 +153,6 @@ class Snooping {
 
   const Observations& observations_;
   std::size_t count_;
-  double alpha_;
   double of_one_;  // Sidak's level of one pose
   SubsetFit fit_;
   std::vector<bool> kept_;

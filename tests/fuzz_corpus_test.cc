@@ -16,7 +16,8 @@ namespace {
 
 std::vector<fuzz::Reader> AllReaders() {
   std::vector<fuzz::Reader> readers = fuzz::DataReaders();
-  for (const fuzz::Reader& reader : fuzz::ReportReaders()) readers.push_back(reader);
+  for (const auto& more : {fuzz::ReportReaders(), fuzz::ProgramReaders()})
+    readers.insert(readers.end(), more.begin(), more.end());
   return readers;
 }
 
@@ -26,15 +27,14 @@ TEST_P(FuzzCorpus, IsTakenOrRefused) {
   const testing::TemporaryFolder folder;
   fuzz::WriteCompanions(folder.Path("in"));
   const std::filesystem::path corpus = std::filesystem::path(HEXCAL_FUZZ_CORPUS) / GetParam().name;
-  int count = 0;
+  int taken = 0;
   for (const auto& entry : std::filesystem::directory_iterator(corpus)) {
     std::ostringstream bytes;
     bytes << std::ifstream(entry.path(), std::ios::binary).rdbuf();
     SCOPED_TRACE(entry.path().filename().string());
-    EXPECT_NO_THROW(fuzz::Meet(GetParam(), folder.Path("in"), bytes.str()));
-    ++count;
+    EXPECT_NO_THROW(taken += fuzz::Meet(GetParam(), folder.Path("in"), bytes.str()));
   }
-  EXPECT_GT(count, 0);
+  EXPECT_GT(taken, 0);  // what is all refused leads no fuzzer far
 }
 
 INSTANTIATE_TEST_SUITE_P(All,

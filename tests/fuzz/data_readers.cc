@@ -45,6 +45,11 @@ void ReadImport(const std::string&, const std::string& path, const Reader& self)
   if (format.read_transform != nullptr) format.read_transform(path);
 }
 
+// Of industrial_calibration, which names them in a list.
+void ReadPoseFile(const std::string& folder, const std::string&, const Reader&) {
+  ReadRecording(*FindImportFormat("industrial_calibration"), folder + "/list.yaml", {});
+}
+
 }  // namespace
 
 std::vector<Reader> DataReaders() {
@@ -54,7 +59,8 @@ std::vector<Reader> DataReaders() {
                                  {"model", "fuzzed.yaml", &ReadModel},
                                  {"pivoting", "fuzzed.yaml", &ReadTip},
                                  {"hexapod", "fuzzed.yaml", &ReadHexapod},
-                                 {"column_map", "fuzzed.yaml", &ReadMap}};
+                                 {"column_map", "fuzzed.yaml", &ReadMap},
+                                 {"pose_file", "poses/0.yaml", &ReadPoseFile}};
   for (const ImportFormat& format : ImportFormats())
     if (format.name != "columns")  // its table is read by a map, as robot_poses is
       readers.push_back({"import_" + std::string(format.name), "fuzzed", &ReadImport});

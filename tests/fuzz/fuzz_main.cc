@@ -4,12 +4,16 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <string>
 
 #include "fuzz/readers.h"
 
 namespace {
+
+// Of the processor's time: libFuzzer's own -timeout counts what others take, too.
+constexpr int kLongestSeconds = 10;
 
 const hexcal::fuzz::Reader* chosen = nullptr;
 std::string folder;
@@ -41,6 +45,11 @@ extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::clock_t begin = std::clock();
   hexcal::fuzz::Meet(*chosen, folder, {reinterpret_cast<const char*>(data), size});
+  if (std::clock() - begin > kLongestSeconds * CLOCKS_PER_SEC) {
+    std::fprintf(stderr, "more than %d s of processor time\n", kLongestSeconds);
+    std::abort();
+  }
   return 0;
 }

@@ -16,19 +16,11 @@ void Write(const std::string& path, std::string_view bytes) {
   std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
 }
 
-// A message goes to terminals and logs: no control characters, and not the whole input again.
-void CheckMessage(std::string_view message) {
-  bool is_good = !message.empty() && message.size() <= kLongestMessage;
-  for (const char c : message) is_good = is_good && static_cast<unsigned char>(c) >= 0x20;
-  if (is_good) return;
-  std::fprintf(stderr, "not a message: %zu bytes\n", message.size());
-  std::abort();
-}
-
 }  // namespace
 
 void WriteCompanions(const std::string& folder) {
-  std::filesystem::create_directories(folder);
+  for (const char* inside : {"/chunks", "/poses"})
+    std::filesystem::create_directories(folder + inside);
   Write(folder + "/dataset.yaml", R"(format: hexcal/dataset/1
 name: small
 units: {length: mm, angle: deg}
@@ -42,9 +34,16 @@ measurement:
     base: {frame: rigid, markers: {b1: [0, 0, 0], b2: [100, 0, 0], b3: [0, 80, 0]}}
     tool: {frame: rigid, markers: {t1: [0, 0, 0], t2: [50, 0, 0], t3: [0, 40, 0]}}
 )");
-  Write(folder + "/poses.csv", "pose,x,y,z,rx,ry,rz\n1,0,0,200,0,0,0\n2,5,-5,210,1,2,3\n");
+  Write(folder + "/model.yaml", R"(format: hexcal/model/1
+dataset: small
+world_from_base: {xyz: [0, 0, 0], rpy: [0, 0, 0]}
+platform_from_tool: {xyz: [1, 2, 0], rpy: [0, 0, 0]}
+)");
+  Write(folder + "/poses.csv",
+        "pose,x,y,z,rx,ry,rz\n1,0,0,200,0,0,0\n2,5,-5,210,1,2,3\n3,-5,5,210,3,2,1\n"
+        "4,1,5,190,-3,2,-1\n");
   std::string markers = "pose,body,marker,x,y,z\n";
-  for (const char* pose : {"1", "2"})
+  for (const char* pose : {"1", "2", "3", "4"})
     for (const char* rest : {"base,b1,0,0,0",
                              "base,b2,100,0,0",
                              "base,b3,0,80,0",
@@ -53,15 +52,28 @@ measurement:
                              "tool,t3,1,42,200"})
       markers += std::string(pose) + "," + rest + "\n";
   Write(folder + "/markers.csv", markers);
+  Write(folder + "/list.yaml", "data:\n  - {pose: poses/0.yaml}\n");
+  Write(folder + "/poses/0.yaml", "{x: 1, y: 2, z: 3, qx: 0, qy: 0, qz: 0, qw: 1}\n");
 }
 
-void Meet(const Reader& reader, const std::string& folder, std::string_view bytes) {
+// A message goes to terminals and logs: no control characters, and not the whole input again.
+void CheckMessage(std::string_view message) {
+  bool is_good = !message.empty() && message.size() <= kLongestMessage;
+  for (const char c : message) is_good = is_good && static_cast<unsigned char>(c) >= 0x20;
+  if (is_good) return;
+  std::fprintf(stderr, "not a message: %zu bytes\n", message.size());
+  std::abort();
+}
+
+bool Meet(const Reader& reader, const std::string& folder, std::string_view bytes) {
   const std::string path = folder + "/" + reader.file;
   Write(path, bytes);
   try {
     reader.read(folder, path, reader);
+    return true;
   } catch (const InputError& error) {
     CheckMessage(error.what());
+    return false;
   }
 }
 
