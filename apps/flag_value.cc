@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gflags/gflags.h>
 #include <glog/logging.h>
+#include <locale.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,25 @@
 namespace hexcal {
 namespace {
 
+// gflags reads and writes numbers by the locale of C: while this lives, that is "C" for this
+// thread.
+class PlainNumbers {
+ public:
+  PlainNumbers() : before_(uselocale(Plain())) {}
+  ~PlainNumbers() { uselocale(before_); }
+  PlainNumbers(const PlainNumbers&) = delete;
+  PlainNumbers& operator=(const PlainNumbers&) = delete;
+
+ private:
+  static locale_t Plain() {
+    static const locale_t plain = newlocale(LC_ALL_MASK, "C", nullptr);
+    return plain;
+  }
+  locale_t before_;
+};
+
 gflags::CommandLineFlagInfo Info(const FlagSpec& spec) {
+  const PlainNumbers numbers;
   gflags::CommandLineFlagInfo info;
   CHECK(gflags::GetCommandLineFlagInfo(std::string(spec.name).c_str(), &info)) << spec.name;
   return info;
@@ -101,6 +120,7 @@ std::optional<std::string> SetFlag(const FlagSpec& spec, std::string_view text) 
   const std::optional<std::string> value = Canonical(spec, text);
   if (!value) return ExpectedText(spec) + DidYouMean(text, spec.choices);
   const std::string name(spec.name);
+  const PlainNumbers numbers;
   CHECK(!gflags::SetCommandLineOption(name.c_str(), value->c_str()).empty()) << name;
   return std::nullopt;
 }

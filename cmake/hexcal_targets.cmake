@@ -50,15 +50,16 @@ function(hexcal_library name)
   set_target_properties(hexcal_${name} PROPERTIES EXPORT_NAME ${name})
 endfunction()
 
-# hexcal_test(pose_test LINKS hexcal::geometry): tests/pose_test.cc, its cases listed in ctest.
+# hexcal_test(pose_test LINKS hexcal::geometry): tests/pose_test.cc, its cases listed in ctest, with
+# the program's name as their label (ctest -L pose_test).
 function(hexcal_test name)
   cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
   if(ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "hexcal_test(${name}): what is ${ARG_UNPARSED_ARGUMENTS}?")
   endif()
-  add_executable(${name} ${name}.cc)
+  add_executable(${name} ${name}.cc $<TARGET_OBJECTS:hexcal_locale_environment>)
   target_link_libraries(${name} PRIVATE ${ARG_LINKS} GTest::gtest GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/tests)
   hexcal_own(${name})
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 LABELS ${name})
 endfunction()

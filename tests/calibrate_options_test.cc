@@ -4,6 +4,7 @@
 #include <gflags/gflags.h>
 #include <gtest/gtest.h>
 
+#include "apps/flag_value.h"
 #include "apps/flags.h"
 #include "apps/usage_error.h"
 
@@ -16,7 +17,7 @@ class CalibrateOptionsTest : public ::testing::Test {
 };
 
 void Set(const char* name, const char* value) {
-  ASSERT_FALSE(gflags::SetCommandLineOption(name, value).empty()) << name;
+  ASSERT_EQ(SetFlag(*FindFlag(name), value), std::nullopt) << name;
 }
 
 TEST_F(CalibrateOptionsTest, WithoutFlagsTheNonlinearSolverEstimatesTheNoise) {
@@ -94,7 +95,7 @@ TEST_F(CalibrateOptionsTest, TheResidualFollowsFromTheMeasurementTheSolverAndThe
   EXPECT_THROW(is_by_markers(poses), UsageError);
   Set("solver", "linearized");
   EXPECT_THROW(is_by_markers(markers), UsageError);
-  Set("residual", "");
+  FLAGS_residual.clear();
   EXPECT_FALSE(is_by_markers(markers));
   Set("solver", "nonlinear");
   Set("noise_position", "0.25");

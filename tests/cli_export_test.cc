@@ -72,6 +72,7 @@ class CliExport : public ::testing::Test {
 std::vector<double> Numbers(const std::string& text) {
   std::vector<double> numbers;
   std::istringstream words(text);
+  words.imbue(std::locale::classic());
   for (double value; words >> value;) numbers.push_back(value);
   return numbers;
 }
@@ -86,7 +87,7 @@ std::vector<std::string> Matches(const std::string& text, const char* pattern) {
 }
 
 Pose3d PoseOf(const std::vector<double>& v) {  // x y z qx qy qz qw
-  return {Eigen::Vector3d(v[0], v[1], v[2]), Eigen::Quaterniond(v[6], v[3], v[4], v[5])};
+  return {Eigen::Vector3d(v[0], v[1], v[2]), Eigen::Quaterniond(v.at(6), v[3], v[4], v[5])};
 }
 
 TEST_F(CliExport, Ros1) {
@@ -106,7 +107,7 @@ TEST_F(CliExport, Ros2) {
   ASSERT_EQ(args.size(), 2u);
   std::vector<double> values;
   for (const char* flag : {"--x ", "--y ", "--z ", "--qx ", "--qy ", "--qz ", "--qw "})
-    values.push_back(std::stod(args[1].substr(args[1].find(flag) + std::string(flag).size())));
+    values.push_back(Numbers(args[1].substr(args[1].find(flag) + std::string(flag).size())).at(0));
   EXPECT_TRUE(PoseNear(PoseOf(values), Mount("platform_from_tool"), kExact, kExact));
   EXPECT_THAT(args[1], HasSubstr("--frame-id platform --child-frame-id tool"));
 }

@@ -96,7 +96,7 @@ TEST(EffectYaml, IsWrittenInTheDocumentedForm) {
             "  - {name: leg_gain, index: [2], parameters: {gain: [0, 0.0001, 0, 0, 0, 0]}, "
             "standard_deviation: {gain: [null, 2.5e-06, null, null, null, null]}, reference: "
             "{home_lengths: [0.25, 0.25, 0.25, 0.25, 0.25, 0.25]}}\n"
-            "  - {name: tracker_scale, index: [], parameters: {scale: -3e-05}}\n");
+            "  - {name: tracker_scale, index: [], parameters: {scale: -3.0e-05}}\n");
   EXPECT_EQ(WriteEffects({}), "effects: []\n");
 }
 

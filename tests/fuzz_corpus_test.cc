@@ -12,6 +12,11 @@
 #include "testing/temporary_folder.h"
 
 namespace hexcal {
+
+namespace fuzz {
+void PrintTo(const Reader& reader, std::ostream* out) { *out << reader.name; }
+}  // namespace fuzz
+
 namespace {
 
 std::vector<fuzz::Reader> AllReaders() {

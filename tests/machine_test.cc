@@ -139,7 +139,7 @@ TEST(Machine, IsWrittenInTheDocumentedForm) {
   EXPECT_EQ(WriteMachine(machine),
             "format: hexcal/model/1\n"
             "dataset: \"paper\"\n"
-            "world_from_base: {xyz: [1, 2.5, -3e-07], quaternion: [1, 0, 0, 0]}\n"
+            "world_from_base: {xyz: [1, 2.5, -3.0e-07], quaternion: [1, 0, 0, 0]}\n"
             "platform_from_tool: {xyz: [0, 0, 0], quaternion: [1, 0, 0, 0]}\n"
             "effects: []\n");
 }
