@@ -70,7 +70,12 @@ int RunDiscover(const std::vector<std::string>& files) {
                 {"model.yaml", WriteMachine(discovery.machine)},
                 {"run.json", RunJson(record)},
                 {"result.json", result},
-                {"report.html", DiscoveryHtml(dataset.name, record, discovery)}});
+                {"report.html",
+                 DiscoveryHtml(dataset.name,
+                               record,
+                               discovery,
+                               MakeScene(dataset, discovery),
+                               ResidualsOf(dataset, discovery))}});
   entry.Append();
   PrintNewWarnings(dataset, discovery.warnings, "discovery.json");
   if (FLAGS_json && !FLAGS_quiet)

@@ -134,6 +134,8 @@ class Discoverer {
       result_.warnings.emplace_back("the refit with the effects did not converge");
     FillMachine();
     FillEstimate();
+    result_.observations = work_.observations;
+    result_.refit = work_.refit.iterations;
   }
 
   void GrowForms() {
@@ -217,6 +219,13 @@ class Discoverer {
     const Matrix6d carry = InverseAdjoint(work_.refit.mounts.world_from_base);
     result_.estimate.covariance.topLeftCorner<6, 6>() +=
         carry * work_.observations.tracker_from_world_covariance * carry.transpose();
+    const auto more = static_cast<int>(work_.refit.covariance.rows()) - 12;
+    Estimate& estimate = result_.estimate;
+    estimate.intervals =
+        estimate.noise.estimated
+            ? IntervalsOfScaledNoise(estimate.covariance,
+                                     std::max(1, estimate.degrees_of_freedom - more))
+            : IntervalsOfKnownNoise(estimate.covariance);
   }
 
   Investigation work_;

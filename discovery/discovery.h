@@ -89,6 +89,9 @@ struct PoseGap {
   int row = 0;
   Vector6d before = Vector6d::Zero(), after = Vector6d::Zero();  // residuals, frame T, [m, rad]
   Vector6d legs_before = Vector6d::Zero(), legs_after = Vector6d::Zero();  // in leg space, m
+  // Each of the six in its own standard deviations, by the Gaussian part of the noise that was
+  // found; NaN where the fit has left next to nothing.
+  Vector6d standard_before = Vector6d::Zero(), standard_after = Vector6d::Zero();
   std::optional<Vector6d> leg_lengths;  // of the reported pose, m; empty: no legs are known
   double weight = 1.0;                  // below 1: taken for an outlier in part
 };
@@ -141,9 +144,11 @@ struct Discovery {
   Where where;
   NoiseFound noise;
   std::vector<PoseGap> poses;
-  Estimate base_and_tool;  // without effects
-  Estimate estimate;       // with them: result.json
-  Machine machine;         // model.yaml
+  Observations observations;           // a pose each, faults of the data mended
+  Estimate base_and_tool;              // without effects
+  Estimate estimate;                   // with them: result.json
+  std::vector<IterationRecord> refit;  // of base, tool and effects together; empty: none
+  Machine machine;                     // model.yaml
   std::vector<std::string> warnings;
 };
 

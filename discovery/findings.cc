@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "discovery/answers.h"
 #include "discovery/geometry_words.h"
 #include "discovery/rivals.h"
 #include "discovery/where.h"
 #include "estimator/quantiles.h"
+#include "estimator/standard_residual.h"
 #include "model/described_effect.h"
 
 namespace hexcal {
@@ -108,9 +110,8 @@ class Findings {
     result_->gap.heldout_after = work_.held.after;
     // Noise of the measurement and of all that was fitted, at each pose.
     double position = 0.0, orientation = 0.0;
-    std::vector<int> all(work_.refit.problem.linear.forms.size());
-    for (std::size_t f = 0; f < all.size(); ++f) all[f] = static_cast<int>(f);
-    const Eigen::MatrixXd columns = work_.refit.problem.linear.With(all).nuisance;
+    const LinearProblem& last = work_.refit.problem.linear;
+    const Eigen::MatrixXd columns = last.With(AllForms(last)).nuisance;
     for (int k = 0; k < work_.problem.linear.poses; ++k) {
       const Eigen::MatrixXd by = columns.middleRows(6 * k, 6);
       const Matrix6d root = work_.selection.noise.Root(work_.problem.linear, k);
@@ -190,16 +191,40 @@ class Findings {
     noise.shape_scale = std::sqrt(found.shape_factor);
   }
 
+  static std::vector<int> AllForms(const LinearProblem& problem) {
+    std::vector<int> all(problem.forms.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+
+  // Without the weight: an outlier is to stand out.
+  Vector6d Standard(const LinearProblem& problem,
+                    std::size_t pose,
+                    const Vector6d& error,
+                    const Eigen::MatrixXd& columns,
+                    const Eigen::MatrixXd& covariance) const {
+    const auto k = static_cast<Eigen::Index>(pose);
+    const Matrix6d root = work_.selection.noise.Root(problem, static_cast<int>(pose));
+    const Matrix6d noise = work_.selection.noise.weight[k] * root * root.transpose();
+    return StandardResidual(error, noise, columns * covariance * columns.transpose());
+  }
+
   void FillPoses() {
+    const LinearProblem &first = work_.problem.linear, &last = work_.refit.problem.linear;
     const JointFit alone =
-        FitJointly(work_.problem.linear, work_.selection.noise, {}, kWidePrior, Eigen::VectorXd());
+        FitJointly(first, work_.selection.noise, {}, kWidePrior, Eigen::VectorXd());
+    const Eigen::MatrixXd grown = last.With(AllForms(last)).nuisance;
     for (std::size_t k = 0; k < work_.data.rows.size(); ++k) {
       PoseGap pose;
       pose.row = work_.data.rows[k];
       pose.label = work_.dataset.robot_poses.rows[pose.row].label;
       const auto at = 6 * static_cast<Eigen::Index>(k);
       pose.before = alone.left.segment<6>(at);
-      pose.after = work_.refit.problem.linear.error.segment<6>(at);
+      pose.after = last.error.segment<6>(at);
+      pose.standard_before =
+          Standard(first, k, pose.before, first.nuisance.middleRows(at, 6), alone.covariance);
+      pose.standard_after =
+          Standard(last, k, pose.after, grown.middleRows(at, 6), work_.refit.covariance);
       if (!work_.problem.legs_by_error.empty()) {
         pose.legs_before = work_.problem.legs_by_error[k] * pose.before;
         pose.legs_after = work_.problem.legs_by_error[k] * pose.after;

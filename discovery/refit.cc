@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "discovery/common_world.h"
+#include "estimator/rms.h"
 #include "model/described_effect.h"
 
 namespace hexcal {
@@ -117,6 +118,7 @@ class Refitter {
     FormLibrary library = FreeForms(refit->effects);
     refit->problem = MakeGapProblem(data_, refit->mounts, refit->effects, library);
     double objective = Objective(*refit, library);
+    refit->iterations.push_back(RecordOf(*refit, objective));
     double fall = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kIterations; ++i) {
       const JointFit fit = Fit(*refit, library);
@@ -130,6 +132,7 @@ class Refitter {
       if (refit->converged) return;
       const double before = objective;
       if (!Take(step, &library, refit, &objective)) return;
+      refit->iterations.push_back(RecordOf(*refit, objective));
       fall = before - objective;
     }
   }
@@ -181,6 +184,13 @@ class Refitter {
       for (int k = 0; k < form.size(); ++k, ++at)
         sum += std::pow(mean[at] / (prior_width_ * form.scale[k]), 2);
     return sum;
+  }
+
+  static IterationRecord RecordOf(const Refit& refit, double objective) {
+    const LinearProblem& linear = refit.problem.linear;
+    RmsError rms;
+    for (int k = 0; k < linear.poses; ++k) rms.Add(linear.error.segment<6>(6 * k));
+    return {0.5 * objective, rms.Position(), rms.Orientation()};
   }
 
   // The longest of the step, its half, its quarter... that leads downhill. False: none does.

@@ -6,6 +6,7 @@
 #include "discovery/gap_model.h"
 #include "discovery/gap_noise.h"
 #include "discovery/joint_fit.h"
+#include "estimator/estimate.h"
 
 namespace hexcal {
 
@@ -17,6 +18,7 @@ struct Refit {
   Eigen::MatrixXd covariance;   // of the mounts' 12, then of the free parameters
   GapProblem problem;           // at the solution, with the effects' free parameters as forms
   bool converged = false;
+  std::vector<IterationRecord> iterations;  // of what is left over, from the start on
 };
 
 // effects: where to start. Free are the parameters of the legs or markers that an effect's index

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/quantiles.h"
 
+#include <boost/math/distributions/beta.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
@@ -26,6 +28,14 @@ double Tail(const Distribution& distribution, double x) {
 }
 
 }  // namespace
+
+double NormalQuantile(double probability) {
+  return boost::math::quantile(boost::math::normal_distribution<double, Policy>(), probability);
+}
+
+double BetaQuantile(double probability, double a, double b) {
+  return boost::math::quantile(boost::math::beta_distribution<double, Policy>(a, b), probability);
+}
 
 double StudentTQuantile(double probability, double degrees_of_freedom) {
   return boost::math::quantile(StudentT(degrees_of_freedom), probability);

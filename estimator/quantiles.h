@@ -3,9 +3,12 @@
 
 namespace hexcal {
 
-// Student's t, chi-square and Fisher's F, from Boost.Math. Degrees of freedom may be fractions,
-// above 0. Quantile: below it lies that probability, in (0, 1). Tail: the probability above x; it
-// keeps its digits where it is small, and is 0 below 1e-308.
+// Normal, Student's t, chi-square, beta and Fisher's F, from Boost.Math. Degrees of freedom may be
+// fractions, above 0. Quantile: below it lies that probability, in (0, 1). Tail: the probability
+// above x; it keeps its digits where it is small, and is 0 below 1e-308.
+double NormalQuantile(double probability);
+double BetaQuantile(double probability, double a, double b);
+
 double StudentTQuantile(double probability, double degrees_of_freedom);
 double StudentTTail(double x, double degrees_of_freedom);
 

@@ -5,7 +5,7 @@
 #include "report/estimate_charts.h"
 #include "report/marker_charts.h"
 #include "report/quantity.h"
-#include "report/scene.h"
+#include "report/residual_section.h"
 
 namespace hexcal {
 namespace {
@@ -78,9 +78,7 @@ void AddGoodnessOfFit(const Audit& audit, HtmlPage* page) {
       "A good fit alone says little about the error of a point of the tool: that is in the "
       "sections "
       "on the budget and on the workspace.");
-  page->Figures(LeftOverCharts(estimate, audit.left_over));
-  page->Figure(SceneChart(audit.scene));
-  page->Figure(HistogramChart(estimate));
+  AddResidualPictures(audit.left_over.poses, audit.scene, page);
   AddMarkers(audit.left_over, page);
   AddOutliers(audit, page);
   if (audit.bodies.empty()) return;

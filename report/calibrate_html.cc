@@ -7,6 +7,7 @@
 #include "report/estimate_sections.h"
 #include "report/marker_charts.h"
 #include "report/quantity.h"
+#include "report/residual_section.h"
 
 namespace hexcal {
 namespace {
@@ -43,11 +44,10 @@ void AddFit(const ResultHeader& header,
                   SizeText(estimate.noise.position, "m"),
                   SizeText(estimate.noise.orientation, "rad"),
                   estimate.noise.estimated ? "estimated from it" : "as stated"));
-  page->Figures(LeftOverCharts(estimate, left));
-  page->Figure(SceneChart(scene));
-  page->Figures(
-      {HistogramChart(estimate), ConvergenceChart(estimate.iterations, header.solver + " solver")});
+  AddResidualPictures(left.poses, scene, page);
   AddMarkers(left, page);
+  page->Heading("How the fit was found");
+  page->Figure(ConvergenceChart(estimate.iterations, header.solver + " solver"));
   if (estimate.outliers.empty()) return;
   page->Heading("Poses that the others contradict");
   HtmlTable table = {{{"pose"}, {"why"}, {"p", true}, {"used"}}, {}};

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "report/html/escape.h"
-
 namespace hexcal {
 
 using Json = nlohmann::ordered_json;
@@ -67,21 +65,9 @@ Json DivergingColours(double largest, const char* unit) {
           {"colorbar", {{"title", {{"text", unit}}}, {"thickness", 12}}}};
 }
 
-Json OrderOf(std::size_t count) {
-  Json list = Json::array();
-  for (std::size_t i = 1; i <= count; ++i) list.push_back(i);
-  return list;
-}
-
 std::size_t StrideOf(std::size_t count) {
   constexpr std::size_t kMostDrawn = 2000;
   return (count + kMostDrawn - 1) / kMostDrawn + (count == 0);
-}
-
-Json LabelsOf(const std::vector<PoseGap>& poses) {
-  Json list = Json::array();
-  for (const PoseGap& pose : poses) list.push_back(EscapeLabel(pose.label));
-  return list;
 }
 
 }  // namespace hexcal

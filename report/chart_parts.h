@@ -3,9 +3,6 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
-
-#include "discovery/discovery.h"
 
 namespace hexcal {
 
@@ -34,10 +31,7 @@ nlohmann::ordered_json Level(const char* name, double y, const char* colour);
 // A colour axis from -largest to largest, pale at zero.
 nlohmann::ordered_json DivergingColours(double largest, const char* unit);
 
-nlohmann::ordered_json OrderOf(std::size_t count);  // 1, 2, 3...
-
 // Every such pose of so many is drawn, so that a page of a million poses still opens.
 std::size_t StrideOf(std::size_t count);
-nlohmann::ordered_json LabelsOf(const std::vector<PoseGap>& poses);
 
 }  // namespace hexcal

@@ -9,6 +9,7 @@
 #include "report/estimate_sections.h"
 #include "report/marker_charts.h"
 #include "report/quantity.h"
+#include "report/residual_section.h"
 
 namespace hexcal {
 namespace {
@@ -94,9 +95,7 @@ std::string CompareHtml(const std::string& dataset,
   AddPropagation(comparison.propagation, &page);
   AddMounts(reference, &page);
   page.Section("What it leaves over");
-  page.Figures(LeftOverCharts(reference, left));
-  page.Figure(SceneChart(scene));
-  page.Figure(HistogramChart(reference));
+  AddResidualPictures(left.poses, scene, &page);
   AddMarkers(left, &page);
   AddReproduction(record, reference.warnings, "compare.json", &page);
   return page.Html();

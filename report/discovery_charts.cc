@@ -139,9 +139,7 @@ Chart RankingChart(const Step& step, std::size_t number) {
       "one bar far above the rest, for a name that stands alone; bars of about equal length are "
       "rivals that these data hardly tell apart. Below zero the data speak against it.";
   chart.table = {{{"candidate"}, {"evidence", true}, {"p by itself", true}}, {}, -1};
-  double low = 0.0, high = 0.0;
-  Json names = Json::array(), scores = Json::array(), colours = Json::array(),
-       texts = Json::array();
+  Json names = Json::array(), scores = Json::array(), colours = Json::array();
   for (const CandidateScore& candidate : step.candidates) {
     if (chart.table.rows.size() == kMostBars) break;
     const std::string name = NameWithIndex(candidate.name, candidate.index);
@@ -149,27 +147,20 @@ Chart RankingChart(const Step& step, std::size_t number) {
     const std::string p = ProbabilityText(candidate.p_value, candidate.log10_p);
     if (is_added) chart.table.chosen_row = 0;
     chart.table.rows.push_back({name, fmt::format("{:.1f}", candidate.score), p});
-    names.push_back(EscapeLabel(name));
+    // Below the name, where it has room on narrow screens too.
+    names.push_back(fmt::format("{}<br><sub>p = {}</sub>", EscapeLabel(name), p));
     scores.push_back(candidate.score);
-    low = std::min(low, candidate.score), high = std::max(high, candidate.score);
     colours.push_back(is_added ? "@chosen" : "@other");
-    texts.push_back("p = " + p);
   }
-  // Room for the texts beside the bars.
-  const double room = 0.35 * std::max(high - low, 1.0);
-  Json x = Axis("evidence", false);
-  x["range"] = Json::array({low < 0.0 ? low - room : 0.0, high + room});
+  Json x = Axis("evidence", true);
   Json y = Axis("", false);
   y["autorange"] = "reversed", y["type"] = "category", y["showgrid"] = false;
   chart.data = Json::array({{{"type", "bar"},
                              {"orientation", "h"},
                              {"x", scores},
                              {"y", names},
-                             {"text", texts},
-                             {"textposition", "outside"},
-                             {"cliponaxis", false},
                              {"marker", {{"color", colours}}}}});
-  chart.layout = {{"height", 110 + 26 * static_cast<int>(names.size())},
+  chart.layout = {{"height", 110 + 38 * static_cast<int>(names.size())},
                   {"showlegend", false},
                   {"xaxis", x},
                   {"yaxis", y}};

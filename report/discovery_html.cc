@@ -8,9 +8,11 @@
 #include "report/discovery_charts.h"
 #include "report/discovery_words.h"
 #include "report/effect_numbers.h"
+#include "report/estimate_charts.h"
+#include "report/estimate_sections.h"
 #include "report/html/page.h"
 #include "report/quantity.h"
-#include "report/residual_charts.h"
+#include "report/residual_section.h"
 
 namespace hexcal {
 namespace {
@@ -110,16 +112,20 @@ void AddGap(const Discovery& discovery, HtmlPage* page) {
       "that lacks nothing.");
 }
 
-void AddResiduals(const Discovery& discovery, HtmlPage* page) {
-  const std::vector<Chart> residuals = ResidualCharts(discovery.poses);
-  if (residuals.empty()) return;
+void AddResiduals(const Scene& scene, const PoseResiduals& residuals, HtmlPage* page) {
+  if (residuals.labels.empty()) return;
   page->Section("What is left over");
-  page->Figures(residuals);
-  const std::vector<Chart> legs = LegCharts(discovery.poses);
-  if (legs.empty())
-    page->Note("The legs' geometry is not known: there are no pictures in leg space.");
-  else
-    page->Figures(legs);
+  AddResidualPictures(residuals, scene, page);
+}
+
+// How both fits arrived.
+void AddConvergence(const Discovery& discovery, HtmlPage* page) {
+  page->Section("How the fits were found");
+  std::vector<Chart> charts = {
+      ConvergenceChart(discovery.base_and_tool.iterations, "fit of base and tool alone")};
+  if (discovery.refit.size() > 0)
+    charts.push_back(ConvergenceChart(discovery.refit, "fit of base, tool and what was found"));
+  page->Figures(charts);
 }
 
 void AddSteps(const Discovery& discovery, HtmlPage* page) {
@@ -204,27 +210,13 @@ void AddLimits(const Discovery& discovery, HtmlPage* page) {
   page->Table(table);
 }
 
-void AddReproduce(const RunRecord& record, HtmlPage* page) {
-  page->Section("How to reproduce");
-  page->Paragraph(
-      "The same build, input and seed give the same result.json, model.yaml and discovery.json, "
-      "which lie beside this report and have every number of it.");
-  if (!record.call.empty()) page->Code(record.call);
-  HtmlTable settings = {{{"setting"}, {"value"}}, {}};
-  for (const auto& [name, value] : record.settings)
-    if (!value.empty()) settings.rows.push_back({name, value});
-  page->Table(settings);
-  page->Heading("Inputs");
-  page->List(record.inputs);
-  page->Heading("Versions");
-  page->Code(record.version);
-}
-
 }  // namespace
 
 std::string DiscoveryHtml(const std::string& dataset,
                           const RunRecord& record,
-                          const Discovery& discovery) {
+                          const Discovery& discovery,
+                          const Scene& scene,
+                          const PoseResiduals& residuals) {
   HtmlPage page("discover",
                 "Gap discovery: " + dataset,
                 fmt::format("{} poses · where prediction and measurement disagree, what is missing "
@@ -233,16 +225,14 @@ std::string DiscoveryHtml(const std::string& dataset,
   AddVerdict(discovery, &page);
   AddEffects(discovery, &page);
   AddGap(discovery, &page);
-  AddResiduals(discovery, &page);
+  AddResiduals(scene, residuals, &page);
   AddSteps(discovery, &page);
   AddWhere(discovery.where, &page);
   AddNoise(discovery, &page);
   AddLimits(discovery, &page);
-  if (!discovery.warnings.empty()) {
-    page.Section("Warnings");
-    page.List(discovery.warnings);
-  }
-  AddReproduce(record, &page);
+  AddMounts(discovery.estimate, &page);
+  AddConvergence(discovery, &page);
+  AddReproduction(record, discovery.warnings, "result.json, model.yaml and discovery.json", &page);
   return page.Html();
 }
 

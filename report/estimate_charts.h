@@ -6,18 +6,10 @@
 #include "estimator/estimate.h"
 #include "estimator/pose_check.h"
 #include "report/html/page.h"
-#include "report/left_over.h"
 
 namespace hexcal {
 
 // Pictures of a calibration, each with the table of its numbers. mm and mrad.
-
-// What is left over: position, then orientation, each axis against the order of visit, and against
-// time where that was recorded.
-std::vector<Chart> LeftOverCharts(const Estimate& estimate, const LeftOver& left);
-
-// All of it in standard deviations of the noise beside the normal distribution.
-Chart HistogramChart(const Estimate& estimate);
 
 // How a solver arrived: RMS errors after each iteration. solver: "nonlinear solver".
 Chart ConvergenceChart(const std::vector<IterationRecord>& iterations, const std::string& solver);

@@ -12,20 +12,6 @@
 namespace hexcal {
 namespace {
 
-std::vector<double> TimesOf(const Dataset& dataset, const Estimate& estimate) {
-  const RobotPoses& robot = dataset.robot_poses;
-  const auto time = std::find_if(robot.covariates.begin(),
-                                 robot.covariates.end(),
-                                 [](const Covariate& c) { return c.name == "time"; });
-  if (time == robot.covariates.end()) return {};
-  std::unordered_map<std::string, std::size_t> row_of;
-  for (std::size_t i = 0; i < robot.rows.size(); ++i) row_of.emplace(robot.rows[i].label, i);
-  std::vector<double> times;
-  for (const PoseResult& pose : estimate.poses)
-    times.push_back(time->values[row_of.at(pose.label)]);
-  return times;
-}
-
 // One marker's readings in one pose.
 struct Mean {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -178,7 +164,7 @@ LeftOver MakeLeftOver(const Dataset& dataset,
                       const Observations& observations,
                       const Estimate& estimate) {
   LeftOver left;
-  left.times = TimesOf(dataset, estimate);
+  left.poses = ResidualsOf(dataset, observations, estimate);
   if (!IsByMarkers(dataset, estimate)) return left;
   const std::map<std::string, double> expected = Expectation(dataset, observations, estimate).Run();
   std::map<std::string, MarkerLeftOver> markers;

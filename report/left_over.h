@@ -7,6 +7,7 @@
 
 #include "estimator/estimate.h"
 #include "measurement/dataset.h"
+#include "report/pose_residuals.h"
 
 namespace hexcal {
 
@@ -25,7 +26,7 @@ struct MarkerLeftOver {
 
 // What is left over, beside what the estimate itself says of it.
 struct LeftOver {
-  std::vector<double> times;            // of Estimate::poses, s; empty where none were recorded
+  PoseResiduals poses;
   std::vector<MarkerLeftOver> markers;  // empty unless the calibration is by markers
 };
 

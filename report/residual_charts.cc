@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "report/chart_parts.h"
+#include "report/html/escape.h"
 
 namespace hexcal {
 namespace {
@@ -14,153 +14,140 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kMilli = 1e3;
+constexpr const char* kAxes[6] = {"x", "y", "z", "about x", "about y", "about z"};
 
-Chart AxesChart(const std::vector<PoseGap>& poses, int first, const char* title, const char* unit) {
-  constexpr const char* kAxes[6] = {"x", "y", "z", "about x", "about y", "about z"};
-  Chart chart;
-  chart.title = fmt::format("{} residuals in order of visit", title);
-  chart.shows = fmt::format(
-      "measured minus predicted along each axis of the tool ({}), pose by pose, before and after "
-      "(hover for the pose's name).",
-      unit);
-  chart.good =
-      "a structureless band about zero after; waves, trends, jumps or single far points mean that "
-      "something is still missing.";
-  const Json order = OrderOf(poses.size());
-  const Json labels = LabelsOf(poses);
-  for (int k = first; k < first + 3; ++k) {
-    Json before = Json::array(), after = Json::array();
-    for (const PoseGap& pose : poses) {
-      before.push_back(kMilli * pose.before[k]);
-      after.push_back(kMilli * pose.after[k]);
-    }
-    const int panel = k - first + 1;
-    chart.data.push_back(DotTrace("before", order, before, labels, true, panel));
-    chart.data.push_back(DotTrace("after", order, after, labels, false, panel));
-    chart.layout[AxisKey("yaxis", panel)] = Axis(fmt::format("{}, {}", kAxes[k], unit), false);
-    Json x = OpenAxis(panel == 3 ? "order of visit" : "");
+// What residuals are shown against.
+struct Abscissa {
+  std::string words;           // "in order of visit"
+  std::string title;           // of the axis
+  const char* look;            // what a structure along it would mean
+  std::vector<double> values;  // of every pose
+};
+
+Abscissa OrderAbscissa(std::size_t poses) {
+  Abscissa order{"in order of visit", "order of visit", "trends and jumps", {}};
+  for (std::size_t i = 0; i < poses; ++i) order.values.push_back(static_cast<double>(i + 1));
+  return order;
+}
+
+// From the first pose on, in a unit that makes short numbers.
+Abscissa TimeAbscissa(const std::vector<double>& times) {
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  const double span = *last - *first;
+  const double unit = span > 10800.0 ? 3600.0 : span > 300.0 ? 60.0 : 1.0;
+  Abscissa time{"over time",
+                fmt::format("time, {}",
+                            unit == 1.0    ? "s"
+                            : unit == 60.0 ? "min"
+                                           : "h"),
+                "drifts (heat, a tracker or base that settles)",
+                {}};
+  for (const double t : times) time.values.push_back((t - *first) / unit);
+  return time;
+}
+
+struct Quantity {
+  int first;  // of the six numbers
+  const char* title;
+  const char* unit;
+};
+
+void AddPanels(const PoseResiduals& residuals,
+               const Abscissa& against,
+               const Quantity& quantity,
+               const DrawnPoses& drawn,
+               Chart* chart) {
+  Json places = Json::array();
+  for (const std::size_t i : drawn.indices) places.push_back(against.values[i]);
+  for (int k = quantity.first; k < quantity.first + 3; ++k) {
+    const int panel = k - quantity.first + 1;
+    const auto add = [&](const char* name, const std::vector<Vector6d>& errors, bool is_before) {
+      Json values = Json::array();
+      for (const std::size_t i : drawn.indices) values.push_back(kMilli * errors[i][k]);
+      Json trace = DotTrace(name, places, values, drawn.labels, is_before, panel);
+      if (!residuals.before) trace["showlegend"] = false;
+      chart->data.push_back(trace);
+    };
+    if (residuals.before) add("before", residuals.before->error, true);
+    add("after", residuals.after.error, false);
+    chart->layout[AxisKey("yaxis", panel)] =
+        Axis(fmt::format("{}, {}", kAxes[k], quantity.unit), false);
+    Json x = OpenAxis(panel == 3 ? against.title : "");
     if (panel < 3) x["matches"] = "x3", x["showticklabels"] = false;
-    chart.layout[AxisKey("xaxis", panel)] = x;
+    chart->layout[AxisKey("xaxis", panel)] = x;
   }
-  chart.layout["grid"] = {{"rows", 3}, {"columns", 1}, {"pattern", "independent"}, {"ygap", 0.12}};
-  chart.layout["height"] = 520;
-  chart.table = {{{"pose"},
-                  {"before, " + std::string(kAxes[first]), true},
-                  {kAxes[first + 1], true},
-                  {kAxes[first + 2], true},
-                  {"after, " + std::string(kAxes[first]), true},
-                  {kAxes[first + 1], true},
-                  {fmt::format("{}, {}", kAxes[first + 2], unit), true}},
-                 {}};
-  for (const PoseGap& pose : poses) {
-    std::vector<std::string> row = {pose.label};
-    for (const Vector6d* residual : {&pose.before, &pose.after})
-      for (int k = first; k < first + 3; ++k)
-        row.push_back(fmt::format("{:.4f}", kMilli * (*residual)[k]));
-    chart.table.rows.push_back(row);
-  }
-  return chart;
+  chart->layout["grid"] = {{"rows", 3}, {"columns", 1}, {"pattern", "independent"}, {"ygap", 0.12}};
+  chart->layout["height"] = 500;
 }
 
-Chart LegLengthChart(const std::vector<PoseGap>& poses) {
-  Chart chart;
-  chart.title = "Leg residuals against leg length";
-  chart.shows =
-      "by how much each leg would have to be longer to explain the difference (mm), against its "
-      "reported length, before and after.";
-  chart.good =
-      "points about zero after. A level off zero is an offset, a slope a gain, a bend a "
-      "nonlinearity, a wave a screw or encoder; one leg alone names the leg.";
-  const Json labels = LabelsOf(poses);
-  for (int leg = 0; leg < 6; ++leg) {
-    Json length = Json::array(), before = Json::array(), after = Json::array();
-    for (const PoseGap& pose : poses) {
-      length.push_back(kMilli * (*pose.leg_lengths)[leg]);
-      before.push_back(kMilli * pose.legs_before[leg]);
-      after.push_back(kMilli * pose.legs_after[leg]);
-    }
-    chart.data.push_back(DotTrace("before", length, before, labels, true, leg + 1));
-    chart.data.push_back(DotTrace("after", length, after, labels, false, leg + 1));
-    chart.layout[AxisKey("xaxis", leg + 1)] =
-        OpenAxis(fmt::format("length of leg {}, mm", leg + 1));
-    Json y = Axis(leg % 2 == 0 ? "mm" : "", false);
-    if (leg > 0) y["matches"] = "y";
-    chart.layout[AxisKey("yaxis", leg + 1)] = y;
+HtmlTable TableOf(const PoseResiduals& residuals,
+                  const Abscissa& against,
+                  const Quantity& quantity,
+                  const DrawnPoses& drawn) {
+  HtmlTable table = {{{"pose"}, {against.title, true}}, {}};
+  const auto add = [&](const char* when) {
+    for (int k = quantity.first; k < quantity.first + 3; ++k)
+      table.columns.push_back({fmt::format("{}{}, {}", when, kAxes[k], quantity.unit), true});
+  };
+  if (residuals.before) add("before, ");
+  add(residuals.before ? "after, " : "");
+  for (const std::size_t i : drawn.indices) {
+    std::vector<std::string> row = {residuals.labels[i], fmt::format("{:.5g}", against.values[i])};
+    const auto numbers = [&](const std::vector<Vector6d>& errors) {
+      for (int k = quantity.first; k < quantity.first + 3; ++k)
+        row.push_back(fmt::format("{:.4f}", kMilli * errors[i][k]));
+    };
+    if (residuals.before) numbers(residuals.before->error);
+    numbers(residuals.after.error);
+    table.rows.push_back(row);
   }
-  chart.layout["grid"] = {
-      {"rows", 3}, {"columns", 2}, {"pattern", "independent"}, {"xgap", 0.18}, {"ygap", 0.35}};
-  chart.layout["height"] = 640;
-  return chart;
+  return table;
 }
 
-Chart LegMapChart(const std::vector<PoseGap>& poses) {
+Chart AxesChart(const PoseResiduals& residuals, const Abscissa& against, const Quantity& quantity) {
+  const DrawnPoses drawn(residuals.labels);
   Chart chart;
-  chart.title = "Map of the legs' residuals";
-  chart.shows =
-      "the same leg residuals (mm) by leg and pose, in order of visit: above before, below after, "
-      "in the same colours.";
-  chart.good =
-      "a faint, patternless lower map. A coloured row is one leg's own, a coloured column one "
-      "pose, "
-      "a "
-      "change from left to right a drift.";
-  Json legs = Json::array();
-  for (int leg = 1; leg <= 6; ++leg) legs.push_back(fmt::format("leg {}", leg));
-  double largest = 0.0;
-  chart.table = {{{"pose"}}, {}};
-  for (const bool is_before : {true, false}) {
-    Json rows = Json::array();
-    for (int leg = 0; leg < 6; ++leg) {
-      Json row = Json::array();
-      for (const PoseGap& pose : poses) {
-        const double value = kMilli * (is_before ? pose.legs_before : pose.legs_after)[leg];
-        largest = std::max(largest, std::abs(value));
-        row.push_back(value);
-      }
-      rows.push_back(row);
-      chart.table.columns.push_back(
-          {fmt::format("{} {}", is_before ? "before" : "after", leg + 1), true});
-    }
-    const int panel = is_before ? 1 : 2;
-    chart.data.push_back({{"type", "heatmap"},
-                          {"x", OrderOf(poses.size())},
-                          {"y", legs},
-                          {"z", rows},
-                          {"coloraxis", "coloraxis"},
-                          {"xaxis", panel == 1 ? "x" : "x2"},
-                          {"yaxis", panel == 1 ? "y" : "y2"}});
-    Json y = Axis(is_before ? "before" : "after", false);
-    y["autorange"] = "reversed";
-    chart.layout[AxisKey("yaxis", panel)] = y;
-    chart.layout[AxisKey("xaxis", panel)] = OpenAxis(is_before ? "" : "order of visit");
-  }
-  for (const PoseGap& pose : poses) {
-    std::vector<std::string> row = {pose.label};
-    for (const Vector6d* legs_of : {&pose.legs_before, &pose.legs_after})
-      for (int leg = 0; leg < 6; ++leg)
-        row.push_back(fmt::format("{:.4f}", kMilli * (*legs_of)[leg]));
-    chart.table.rows.push_back(row);
-  }
-  chart.layout["grid"] = {{"rows", 2}, {"columns", 1}, {"pattern", "independent"}, {"ygap", 0.15}};
-  chart.layout["height"] = 440;
-  chart.layout["coloraxis"] = DivergingColours(largest, "mm");
+  chart.title = fmt::format("{} residuals {}", quantity.title, against.words);
+  chart.shows = fmt::format(
+      "measured minus predicted along each axis of the tool ({}), pose by pose, {}{} (hover for "
+      "the pose's name).{}",
+      quantity.unit,
+      against.words,
+      residuals.before ? ", before and after what was found" : "",
+      drawn.note);
+  chart.good = fmt::format(
+      "a structureless band about zero{}; waves, {}, or single far points mean that {}.",
+      residuals.before ? " after" : "",
+      against.look,
+      residuals.before ? "something is still missing"
+                       : "the model misses something (hexcal discover looks for it)");
+  AddPanels(residuals, against, quantity, drawn, &chart);
+  chart.table = TableOf(residuals, against, quantity, drawn);
   return chart;
 }
 
 }  // namespace
 
-std::vector<Chart> ResidualCharts(const std::vector<PoseGap>& poses) {
-  if (poses.empty()) return {};
-  return {AxesChart(poses, 0, "Position", "mm"), AxesChart(poses, 3, "Orientation", "mrad")};
+DrawnPoses::DrawnPoses(const std::vector<std::string>& all) {
+  const std::size_t stride = StrideOf(all.size());
+  for (std::size_t i = 0; i < all.size(); i += stride) {
+    indices.push_back(i);
+    order.push_back(i + 1);
+    labels.push_back(EscapeLabel(all[i]));
+  }
+  if (stride > 1) note = fmt::format(" One pose in {} is drawn.", stride);
 }
 
-std::vector<Chart> LegCharts(const std::vector<PoseGap>& poses) {
-  const bool has_legs =
-      !poses.empty() && std::all_of(poses.begin(), poses.end(), [](const PoseGap& pose) {
-        return pose.leg_lengths.has_value();
-      });
-  if (!has_legs) return {};
-  return {LegLengthChart(poses), LegMapChart(poses)};
+std::vector<Chart> ResidualCharts(const PoseResiduals& residuals) {
+  if (residuals.labels.empty()) return {};
+  std::vector<Abscissa> abscissas = {OrderAbscissa(residuals.labels.size())};
+  if (!residuals.times.empty()) abscissas.push_back(TimeAbscissa(residuals.times));
+  std::vector<Chart> charts;
+  for (const Abscissa& against : abscissas) {
+    charts.push_back(AxesChart(residuals, against, {0, "Position", "mm"}));
+    charts.push_back(AxesChart(residuals, against, {3, "Orientation", "mrad"}));
+  }
+  return charts;
 }
 
 }  // namespace hexcal

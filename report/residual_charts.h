@@ -1,20 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
-#include "discovery/discovery.h"
 #include "report/html/page.h"
+#include "report/pose_residuals.h"
 
 namespace hexcal {
 
-// Pictures of what is left over at every pose, before and after, each with the table of its
-// numbers. mm and mrad.
+// Position, then orientation: each axis against the order of visit, and against time where that was
+// recorded. With the table of their numbers; mm and mrad.
+std::vector<Chart> ResidualCharts(const PoseResiduals& residuals);
 
-// Position, then orientation: each axis against the order of visit, before and after.
-std::vector<Chart> ResidualCharts(const std::vector<PoseGap>& poses);
-
-// Empty where no legs are known: leg-space residuals against the leg's length, and leg by pose.
-std::vector<Chart> LegCharts(const std::vector<PoseGap>& poses);
+// Those poses that are drawn of so many, and a sentence that says it where some are not.
+struct DrawnPoses {
+  explicit DrawnPoses(const std::vector<std::string>& labels);
+  std::vector<std::size_t> indices;
+  nlohmann::ordered_json order = nlohmann::ordered_json::array();
+  nlohmann::ordered_json labels = nlohmann::ordered_json::array();
+  std::string note;
+};
 
 }  // namespace hexcal

@@ -118,11 +118,17 @@ Json Ellipsoid(const Scene& scene, double factor) {
 
 HtmlTable ArrowTable(const Scene& scene) {
   HtmlTable table = {{{"pose"}, {"x, mm", true}, {"y, mm", true}, {"z, mm", true}}, {}};
-  for (const Scene::Arrow& arrow : scene.arrows)
-    table.rows.push_back({arrow.label,
-                          fmt::format("{:.4f}", kMilli * arrow.along.x()),
-                          fmt::format("{:.4f}", kMilli * arrow.along.y()),
-                          fmt::format("{:.4f}", kMilli * arrow.along.z())});
+  const bool has_before = !scene.arrows.empty() && scene.arrows.front().before.has_value();
+  if (has_before)
+    for (const char* axis : {"before, x, mm", "y, mm", "z, mm"})
+      table.columns.push_back({axis, true});
+  for (const Scene::Arrow& arrow : scene.arrows) {
+    std::vector<std::string> row = {arrow.label};
+    for (const double x : arrow.along) row.push_back(fmt::format("{:.4f}", kMilli * x));
+    if (arrow.before)
+      for (const double x : *arrow.before) row.push_back(fmt::format("{:.4f}", kMilli * x));
+    table.rows.push_back(row);
+  }
   return table;
 }
 
@@ -169,10 +175,29 @@ Scene MakeScene(const Dataset& dataset,
   return scene;
 }
 
+Scene MakeScene(const Dataset& dataset, const Discovery& discovery) {
+  Estimate estimate = discovery.estimate;
+  CHECK_EQ(estimate.poses.size(), discovery.poses.size());
+  for (std::size_t i = 0; i < discovery.poses.size(); ++i)
+    estimate.poses[i].residual = discovery.poses[i].after;
+  Scene scene = MakeScene(dataset, discovery.observations, estimate);
+  if (discovery.effects.empty()) return scene;
+  const std::size_t stride = StrideOf(discovery.poses.size());
+  for (std::size_t i = 0; i < scene.arrows.size(); ++i) {
+    const Eigen::Quaterniond world_from_tool =
+        discovery.observations.items[i * stride].world_from_tool.rotation;
+    scene.arrows[i].before =
+        world_from_tool * Eigen::Vector3d(discovery.poses[i * stride].before.head<3>());
+  }
+  return scene;
+}
+
 Chart SceneChart(const Scene& scene) {
   const double size = SizeOf(scene);
+  const bool has_before = !scene.arrows.empty() && scene.arrows.front().before.has_value();
   double longest = 0.0;
-  for (const Scene::Arrow& arrow : scene.arrows) longest = std::max(longest, arrow.along.norm());
+  for (const Scene::Arrow& arrow : scene.arrows)
+    longest = std::max({longest, arrow.along.norm(), arrow.before.value_or(arrow.along).norm()});
   const double arrows = RoundFactor(kArrowPart * size / longest);
   const double widest = std::sqrt(DecomposeSymmetric(scene.covariance).values[2]);
   const double ellipsoid = RoundFactor(kEllipsoidPart * size / widest);
@@ -181,13 +206,18 @@ Chart SceneChart(const Scene& scene) {
   chart.is_in_space = true;
   chart.title = "The machine, and what is left over";
   chart.shows = fmt::format(
-      "frames W, B, A and T, legs and markers at pose {} (mm, frame W); for every pose the tool's "
-      "predicted place and how far the measured one is off, {} times enlarged; the ellipsoid, {} "
-      "times "
-      "enlarged, holds the predicted tool with 95 %.",
+      "frames W, B, A and T{}{} at pose {} (mm, frame W); for every pose the tool's predicted "
+      "place "
+      "and how far the measured one is off{}, {} times enlarged{}.",
+      scene.legs.empty() ? "" : ", legs",
+      scene.markers.empty() ? "" : ", markers",
       scene.label,
+      has_before ? ", before and after what was found" : "",
       arrows,
-      ellipsoid);
+      widest > 0.0 ? fmt::format("; the ellipsoid, {} times enlarged, holds the predicted tool "
+                                 "with 95 %",
+                                 ellipsoid)
+                   : "");
   chart.good =
       "arrows in all directions. Neighbours that point the same way mean that the model misses "
       "something; a long, thin ellipsoid says along which direction the poses tell least.";
@@ -195,7 +225,7 @@ Chart SceneChart(const Scene& scene) {
   AddFrame("B", scene.world_from_base, 0.12 * size, &chart.data);
   AddFrame("A", scene.world_from_platform, 0.08 * size, &chart.data);
   AddFrame("T", scene.world_from_tool, 0.08 * size, &chart.data);
-  Points legs, ends, places, markers;
+  Points legs, ends, ends_before, places, markers;
   for (const auto& [base, platform] : scene.legs) legs.push_back(base), legs.push_back(platform);
   Json names = Json::array(), labels = Json::array();
   for (const auto& [name, p] : scene.markers)
@@ -203,6 +233,9 @@ Chart SceneChart(const Scene& scene) {
   for (const Scene::Arrow& arrow : scene.arrows) {
     places.push_back(arrow.from);
     ends.push_back(arrow.from), ends.push_back(arrow.from + arrows * arrow.along);
+    if (has_before)
+      ends_before.push_back(arrow.from),
+          ends_before.push_back(arrow.from + arrows * arrow.before.value_or(arrow.along));
     labels.push_back(EscapeLabel(arrow.label));
   }
   if (!legs.empty()) chart.data.push_back(Trace("legs", "lines+markers", legs, 2, "@other"));
@@ -214,8 +247,15 @@ Chart SceneChart(const Scene& scene) {
   Json trace = Trace("poses, as predicted", "markers", places, 0, "@after");
   trace["text"] = labels, trace["hoverinfo"] = "text", trace["marker"]["size"] = 2;
   chart.data.push_back(trace);
+  if (has_before)
+    chart.data.push_back(
+        Trace(fmt::format("before, {} times", arrows), "lines", ends_before, 2, "@before"));
   chart.data.push_back(
-      Trace(fmt::format("left over, {} times", arrows), "lines", ends, 2, "@before"));
+      Trace(fmt::format("{}, {} times", has_before ? "after" : "left over", arrows),
+            "lines",
+            ends,
+            2,
+            has_before ? "@after" : "@before"));
   if (widest > 0.0) chart.data.push_back(Ellipsoid(scene, ellipsoid));
   const Json axis = {{"title", {{"text", ""}}},
                      {"gridcolor", "@grid"},
@@ -225,7 +265,7 @@ Chart SceneChart(const Scene& scene) {
                   {"margin", {{"l", 0}, {"r", 0}, {"t", 40}, {"b", 0}}},
                   {"scene",
                    {{"aspectmode", "data"},
-                    {"camera", {{"eye", {{"x", 1.1}, {"y", 1.1}, {"z", 0.7}}}}},
+                    {"camera", {{"eye", {{"x", 1.45}, {"y", 1.45}, {"z", 0.95}}}}},
                     {"xaxis", axis},
                     {"yaxis", axis},
                     {"zaxis", axis}}}};

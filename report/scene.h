@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "estimator/estimate.h"
+#include "discovery/discovery.h"
 #include "measurement/dataset.h"
 #include "report/html/page.h"
 
@@ -19,7 +20,8 @@ struct Scene {
   std::vector<std::pair<std::string, Eigen::Vector3d>> markers;   // of bodies whose shape is known
   struct Arrow {
     std::string label;
-    Eigen::Vector3d from, along;  // the tool as predicted, and measured minus that
+    Eigen::Vector3d from, along;                 // the tool as predicted, and measured minus that
+    std::optional<Eigen::Vector3d> before = {};  // the same with base and tool alone
   };
   std::vector<Arrow> arrows;                             // of every pose
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of the tool there, by the calibration
@@ -27,6 +29,8 @@ struct Scene {
 
 // observations: of the dataset, those that the estimate is of.
 Scene MakeScene(const Dataset& dataset, const Observations& observations, const Estimate& estimate);
+// Before and after.
+Scene MakeScene(const Dataset& dataset, const Discovery& discovery);
 
 // Frames, legs, markers, what is left over at every pose and the ellipsoid that holds the predicted
 // tool with 95 %, the last two enlarged.

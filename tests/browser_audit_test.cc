@@ -90,8 +90,9 @@ TEST(AuditInBrowser, IsDrawnSaysWhatItsJsonSaysAndItsNamesAreOnlyNames) {
   const std::string dom = Before(browser.Dom(html), "plotly.js (cartesian");
   ExpectQuiet(browser.Console());
   const int pictures = Count(html, "class=\"plot\"");
-  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 11);
+  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 15);
   EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), pictures);
+  EXPECT_EQ(Count(dom, "data-complete="), FlatCharts().empty() ? 0 : 1);
   const auto json = nlohmann::json::parse(AuditJson(identity, audit));
   EXPECT_THAT(dom,
               AllOf(HasSubstr(identity.log->mark.head),
@@ -112,14 +113,16 @@ TEST(CalibrationInBrowser, IsDrawnAsItsComparisonIs) {
   if (!browser.IsThere()) FAIL() << "no Chromium: scripts/install_dependencies test";
   testing::AuditedExample example = testing::AuditExample();
   const std::string hostile = "<img src=x onerror=\"document.title='no'\">";
-  LeftOver left;
-  left.markers = {{hostile, 2, 1e-4, 2e-4, {{1e-4, 0, 0}, {0, 1e-4, 0}}, {0, 1}},
-                  {"tool/t1", 1, 1e-4, 0.0, {{0, 0, 1e-4}}, {1}}};
-  for (std::size_t i = 0; i < example.estimate.poses.size(); ++i)
-    left.times.push_back(100.0 * static_cast<double>(i));
+  LeftOver left = MakeLeftOver(example.dataset, example.observations, example.estimate);
+  for (std::string& label : left.poses.labels) label = hostile;
   for (PoseResult& pose : example.estimate.poses) pose.label = hostile;
   for (PoseResult& pose : example.comparison.reference.poses) pose.label = hostile;
   for (Observation& o : example.observations.items) o.label = hostile;
+  const LeftOver untimed = left;
+  left.markers = {{hostile, 2, 1e-4, 2e-4, {{1e-4, 0, 0}, {0, 1e-4, 0}}, {0, 1}},
+                  {"tool/t1", 1, 1e-4, 0.0, {{0, 0, 1e-4}}, {1}}};
+  for (std::size_t i = 0; i < example.estimate.poses.size(); ++i)
+    left.poses.times.push_back(100.0 * static_cast<double>(i));
   ConvergenceMap& map = example.comparison.paper_map;
   map.rotation_errors = {0.1, 1.0}, map.translation_errors = {0.01}, map.share = {{1.0}, {0.5}};
   RunRecord record;
@@ -130,8 +133,8 @@ TEST(CalibrationInBrowser, IsDrawnAsItsComparisonIs) {
        {std::pair{
             CalibrateHtml(
                 {"demo", "nonlinear", "pose", ""}, record, example.estimate, frames, scene, left),
-            10},
-        std::pair{CompareHtml("demo", record, example.comparison, scene, {}), 8}}) {
+            14},
+        std::pair{CompareHtml("demo", record, example.comparison, scene, untimed), 12}}) {
     const std::string dom = Before(browser.Dom(html), "plotly.js (cartesian");
     ExpectQuiet(browser.Console());
     EXPECT_EQ(Count(html, "class=\"plot\""), FlatCharts().empty() ? 0 : pictures);

@@ -90,6 +90,31 @@ TEST(Discover, TheGapShrinksOnPosesNeverSeen) {
   EXPECT_LT(Found().effects.back().gap_closed, 1.15);
 }
 
+// In standard deviations of the noise that was found nothing else is left.
+TEST(Discover, WhatPicturesAreDrawnFromIsWhatWasFound) {
+  const Discovery& found = Found();
+  ASSERT_EQ(found.observations.items.size(), found.poses.size());
+  double before = 0.0, after = 0.0, position = 0.0;
+  for (std::size_t i = 0; i < found.poses.size(); ++i) {
+    EXPECT_EQ(found.observations.items[i].label, found.poses[i].label);
+    before += found.poses[i].standard_before.squaredNorm();
+    after += found.poses[i].standard_after.squaredNorm();
+    position += found.poses[i].after.head<3>().squaredNorm();
+  }
+  const double numbers = 6.0 * static_cast<double>(found.poses.size());
+  EXPECT_NEAR(std::sqrt(after / numbers), 1.0, 0.05);
+  EXPECT_GT(std::sqrt(before / numbers), 1.2);
+  ASSERT_GE(found.refit.size(), 2u);
+  EXPECT_LE(found.refit.back().cost, found.refit.front().cost);
+  EXPECT_NEAR(found.refit.back().rmspe,
+              std::sqrt(6.0 * position / numbers),
+              1e-3 * found.refit.back().rmspe);
+  for (int k = 0; k < 12; ++k)
+    EXPECT_NEAR(found.estimate.intervals.half_width[k],
+                1.96 * std::sqrt(found.estimate.covariance(k, k)),
+                0.02 * found.estimate.intervals.half_width[k]);
+}
+
 TEST(Discover, EqualSeedsGiveEqualNumbersWhateverTheThreads) {
   DiscoverOptions options = Quick();
   options.threads = 3;

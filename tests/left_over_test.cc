@@ -64,7 +64,7 @@ TEST(LeftOver, RmsIsThatOfTheMarkersResiduals) {
     by_marker += 3.0 * marker.poses * marker.rms * marker.rms;
   }
   EXPECT_NEAR(by_marker, squares, 1e-12 * squares);
-  EXPECT_TRUE(found.left.times.empty());
+  EXPECT_TRUE(found.left.poses.times.empty());
 }
 
 // What is expected of each marker is what repetition finds: hidden markers, three frames a pose and
@@ -102,7 +102,7 @@ TEST(LeftOver, AReportOfSixtyPosesStaysLight) {
   const Dataset dataset = DrawMarkers(MakeMarkerTruth(rng, scene), 1);
   Found found = FindLeftOver(dataset);
   for (std::size_t i = 0; i < found.estimate.poses.size(); ++i)
-    found.left.times.push_back(60.0 * static_cast<double>(i));
+    found.left.poses.times.push_back(60.0 * static_cast<double>(i));
   const std::string html =
       CalibrateHtml({"demo", "nonlinear", "marker", ""},
                     {},
@@ -140,10 +140,10 @@ TEST(LeftOver, TimesAreThoseOfThePoses) {
     time.values.push_back(10.0 * static_cast<double>(i));
   dataset.robot_poses.covariates.push_back(time);
   const Found found = FindLeftOver(dataset);
-  ASSERT_EQ(found.left.times.size(), found.estimate.poses.size());
-  for (std::size_t i = 0; i < found.left.times.size(); ++i) {
+  ASSERT_EQ(found.left.poses.times.size(), found.estimate.poses.size());
+  for (std::size_t i = 0; i < found.left.poses.times.size(); ++i) {
     const RobotPose& row =
-        dataset.robot_poses.rows[static_cast<std::size_t>(found.left.times[i] / 10.0)];
+        dataset.robot_poses.rows[static_cast<std::size_t>(found.left.poses.times[i] / 10.0)];
     EXPECT_EQ(row.label, found.estimate.poses[i].label);
   }
 }

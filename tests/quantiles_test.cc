@@ -24,6 +24,16 @@ TEST(Quantiles, AreThoseOfTables) {
   EXPECT_NEAR(FisherFQuantile(0.99, 3.0, 20.0), 4.938, 5e-4);
 }
 
+// The smallest of n evenly spread numbers is beta (1, n), the largest beta (n, 1).
+TEST(Quantiles, OfNormalAndBetaAreTableAndClosedForm) {
+  EXPECT_NEAR(NormalQuantile(0.975), 1.959963984540054, 1e-14);
+  EXPECT_NEAR(NormalQuantile(1e-10), -6.361340902404056, 1e-11);
+  for (const double p : {0.025, 0.5, 0.975}) {
+    EXPECT_NEAR(BetaQuantile(p, 1.0, 40.0), 1.0 - std::pow(1.0 - p, 1.0 / 40.0), 1e-14);
+    EXPECT_NEAR(BetaQuantile(p, 40.0, 1.0), std::pow(p, 1.0 / 40.0), 1e-14);
+  }
+}
+
 TEST(Quantiles, TailsAreTheClosedForms) {
   for (const double x : {0.0, 0.3, 1.0, 5.0, 40.0}) {
     EXPECT_NEAR(StudentTTail(x, 2.0), 0.5 * (1.0 - x / std::sqrt(2.0 + x * x)), 1e-15);

@@ -54,6 +54,8 @@ PoseGap PoseOf(int i) {
   for (int k = 0; k < 6; ++k) {
     pose.before[k] = 2e-4 * std::sin(0.7 * i + k);
     pose.after[k] = 2e-5 * std::cos(1.9 * i + 2 * k);
+    pose.standard_before[k] = 4.0 * std::sin(0.7 * i + k);
+    pose.standard_after[k] = 1.5 * std::cos(1.9 * i + 2 * k);
     pose.legs_before[k] = (k == 2 ? 3e-4 : 3e-5) * std::sin(0.5 * i + k);
     pose.legs_after[k] = 2.5e-5 * std::cos(2.3 * i + k);
   }
@@ -110,8 +112,31 @@ Discovery MakeDiscovery() {
   for (int i = 0; i < kPoses; ++i) discovery.poses.push_back(PoseOf(i));
   discovery.base_and_tool = MakeEstimateOf(1.5);
   discovery.estimate = MakeEstimateOf(1.0);
+  for (const PoseGap& pose : discovery.poses) {
+    Observation seen;
+    seen.label = pose.label;
+    seen.base_from_platform.translation << 1e-3 * pose.row, 0.0, 0.25;
+    seen.world_from_tool = seen.base_from_platform;
+    discovery.observations.items.push_back(seen);
+    discovery.estimate.poses.push_back({pose.label, 1.0, pose.after});
+  }
+  discovery.base_and_tool.iterations = {{900.0, 1e-3, 1e-2}, {450.0, 1.5e-4, 1.25e-3}};
+  discovery.refit = {{450.0, 1.5e-4, 1.25e-3}, {200.0, 5e-5, 4e-4}};
   discovery.warnings = {"a warning"};
   return discovery;
+}
+
+Dataset DatasetOf(const Discovery& discovery) {
+  Dataset dataset;
+  dataset.name = "demo";
+  dataset.measurement.emplace();
+  Covariate time{"time", {}, {}};
+  for (const PoseGap& pose : discovery.poses) {
+    dataset.robot_poses.rows.push_back({pose.label, {}, {}, 0});
+    time.values.push_back(60.0 * pose.row);
+  }
+  dataset.robot_poses.covariates = {time};
+  return dataset;
 }
 
 }  // namespace hexcal::testing

@@ -15,7 +15,9 @@
       good: "#4cc38a", low: "#58b4f5", middle: "#1d2229", high: "#f0883e"
     }
   };
-  const kPrintWidth = 660;
+  // On paper two pictures stand side by side where several belong together (page.css), in px of a
+  // page of A4 less its margins, and all are lower, so that more than one row fits on a page.
+  const kPrintWidth = 660, kPrintHalf = 322, kPrintHeight = 0.7, kPrintFont = 10;
   const canHover = window.matchMedia("(hover: hover)");
   const darkLook = window.matchMedia("(prefers-color-scheme: dark)");
   let printing = false;
@@ -34,7 +36,12 @@
 
   function isAxis(key) { return /^[xyz]axis[0-9]*$/.test(key); }
 
-  function styled(layout, colours) {
+  function isHalf(plot) {
+    const together = plot.closest(".figures");
+    return together !== null && together.children.length > 1;
+  }
+
+  function styled(layout, colours, plot) {
     const full = Object.assign({
       autosize: true, margin: { l: 62, r: 16, t: 12, b: 46 }, hovermode: "closest", dragmode: "zoom",
       font: { family: "system-ui, DejaVu Sans, sans-serif", size: 13, color: colours.ink },
@@ -51,7 +58,11 @@
         gridcolor: colours.grid, zerolinecolor: colours.muted, linecolor: colours.grid, automargin: true
       }, full[key]);
     });
-    if (printing) full.width = kPrintWidth;
+    if (printing) {
+      full.width = isHalf(plot) ? kPrintHalf : kPrintWidth;
+      full.height = Math.round(kPrintHeight * Number(plot.dataset.height));
+      full.font = Object.assign({}, full.font, { size: kPrintFont });
+    }
     return full;
   }
 
@@ -74,7 +85,7 @@
     if (!library) return;
     const spec = JSON.parse(document.getElementById(plot.dataset.spec).textContent);
     const colours = kColours[darkLook.matches && !printing ? "dark" : "light"];
-    library.react(plot, coloured(spec.data, colours), styled(coloured(spec.layout, colours), colours), {
+    library.react(plot, coloured(spec.data, colours), styled(coloured(spec.layout, colours), colours, plot), {
       responsive: true, displaylogo: false, displayModeBar: canHover.matches ? "hover" : false,
       modeBarButtonsToRemove: ["select2d", "lasso2d"],
       showSendToCloud: false, plotlyServerURL: ""
