@@ -160,7 +160,7 @@ Chart RankingChart(const Step& step, std::size_t number) {
                              {"x", scores},
                              {"y", names},
                              {"marker", {{"color", colours}}}}});
-  chart.layout = {{"height", 110 + 38 * static_cast<int>(names.size())},
+  chart.layout = {{"height", 110 + 44 * static_cast<int>(names.size())},
                   {"showlegend", false},
                   {"xaxis", x},
                   {"yaxis", y}};

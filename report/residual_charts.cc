@@ -14,7 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kMilli = 1e3;
-constexpr const char* kAxes[6] = {"x", "y", "z", "about x", "about y", "about z"};
+constexpr const char* kAxes[6] = {"x", "y", "z", "rx", "ry", "rz"};
 
 // What residuals are shown against.
 struct Abscissa {
@@ -109,8 +109,9 @@ Chart AxesChart(const PoseResiduals& residuals, const Abscissa& against, const Q
   Chart chart;
   chart.title = fmt::format("{} residuals {}", quantity.title, against.words);
   chart.shows = fmt::format(
-      "measured minus predicted along each axis of the tool ({}), pose by pose, {}{} (hover for "
-      "the pose's name).{}",
+      "measured minus predicted {} each axis of the tool ({}), pose by pose, {}{} (hover for the "
+      "pose's name).{}",
+      quantity.first == 0 ? "along" : "about",
       quantity.unit,
       against.words,
       residuals.before ? ", before and after what was found" : "",

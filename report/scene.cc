@@ -265,7 +265,9 @@ Chart SceneChart(const Scene& scene) {
                   {"margin", {{"l", 0}, {"r", 0}, {"t", 40}, {"b", 0}}},
                   {"scene",
                    {{"aspectmode", "data"},
-                    {"camera", {{"eye", {{"x", 1.45}, {"y", 1.45}, {"z", 0.95}}}}},
+                    {"camera",
+                     {{"eye", {{"x", 1.4}, {"y", 1.4}, {"z", 0.9}}},
+                      {"center", {{"x", 0.0}, {"y", 0.0}, {"z", -0.12}}}}},
                     {"xaxis", axis},
                     {"yaxis", axis},
                     {"zaxis", axis}}}};

@@ -171,9 +171,14 @@ TEST_F(InBrowser, PicturesInSpaceAndFlatOnesStandOnOnePage) {
   ExpectQuiet(browser.Console());
 }
 
+// Two or more pictures on a page of pictures.
 TEST_F(InBrowser, AReportPrints) {
-  const std::string pdf = browser.Pdf(Html(testing::MakeDiscovery()));
+  const std::string html = Html(testing::MakeDiscovery());
+  const std::string pdf = browser.Pdf(html);
   EXPECT_THAT(pdf.substr(0, 8), StartsWith("%PDF"));
+  const int pages = Count(pdf, "/Type /Page\n"), pictures = Count(html, "class=\"plot\"");
+  EXPECT_GE(pages, 4);
+  EXPECT_LE(pages, FlatCharts().empty() ? 40 : pictures / 2 + 2);
   EXPECT_GT(pdf.size(), 20000u);
   ExpectQuiet(browser.Console());
 }

@@ -17,7 +17,7 @@
   };
   // On paper two pictures stand side by side where several belong together (page.css), in px of a
   // page of A4 less its margins, and all are lower, so that more than one row fits on a page.
-  const kPrintWidth = 660, kPrintHalf = 322, kPrintHeight = 0.7, kPrintFont = 10;
+  const kPrintWidth = 660, kPrintHalf = 322, kPrintHeight = 0.58, kPrintFont = 10;
   const canHover = window.matchMedia("(hover: hover)");
   const darkLook = window.matchMedia("(prefers-color-scheme: dark)");
   let printing = false;
