@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <memory>
 #include <optional>
 
 #include "apps/calibrate_options.h"
@@ -18,6 +20,8 @@
 #include "apps/record_of.h"
 #include "apps/stage_bars.h"
 #include "apps/usage_error.h"
+#include "estimator/calibrate_grown.h"
+#include "estimator/grown_repeat.h"
 #include "report/audit_html.h"
 #include "report/audit_json.h"
 #include "report/audit_table.h"
@@ -28,6 +32,10 @@ namespace hexcal {
 namespace {
 
 constexpr std::string_view kAuditMark = R"("format": "hexcal/audit/)";
+// Repetitions of a joint fit take as much longer; they are as many fewer.
+constexpr int kPlainFitsInAJointOne = 20;
+constexpr int kFewestJointFits = 100;
+constexpr int kMostJointRounds = 4;
 
 CompareOptions ComparisonOf(const Dataset& dataset, const CalibrateOptions& options) {
   CompareOptions compare;
@@ -75,7 +83,7 @@ Requirements OpenRequirements(const std::string& path, const Dataset& dataset) {
 
 std::vector<std::string> AllInputs(const Dataset& dataset,
                                    const std::optional<Requirements>& requirements) {
-  std::vector<std::string> files = InputFiles(dataset, "");
+  std::vector<std::string> files = InputFiles(dataset, FLAGS_model);
   if (requirements) {
     files.push_back(FLAGS_requirement);
     for (const NamedPoint& point : requirements->points)
@@ -111,12 +119,63 @@ Audit AuditDataset(const Dataset& dataset,
                     compare.seed});
 }
 
+// The same with the effects of a model, jointly; methods are compared by poses without effects.
+Audit AuditGrown(const Dataset& dataset,
+                 const Machine& model,
+                 const std::optional<Requirements>& requirements,
+                 Machine* machine) {
+  CalibrateOptions options = CalibrateOptionsFromFlags();
+  options.threads = ThreadsFor(FLAGS_threads);
+  StageBars bars(FLAGS_quiet);
+  const std::optional<BaseAndTool> initial = InitialOf(dataset, options);
+  GrownCalibration grown = CalibrateGrown(dataset, model, options);
+  *machine = grown.machine;
+  const GrownSolution& solution = *grown.solution;
+  CompareOptions compare = ComparisonOf(dataset, options);
+  compare.markers = {};
+  compare.progress = [&bars](std::string_view label, long done, long of) {
+    bars.Update(label, done, of);
+  };
+  compare.repeat = [&](MonteCarloOptions repeat) {
+    repeat.draws = std::max(repeat.draws / kPlainFitsInAJointOne, kFewestJointFits);
+    repeat.most_rounds = kMostJointRounds;
+    return CheckGrownPropagation(solution, grown.estimate, repeat);
+  };
+  Comparison comparison = Compare(solution.cleaned, initial, compare);
+  const NoiseLevels levels = LevelsOf(solution.cleaned, options.noise, comparison.reference);
+  auto target =
+      grown.estimate.converged ? std::make_shared<const GrownTarget>(grown.solution) : nullptr;
+  return MakeAudit({dataset,
+                    solution.observations,
+                    levels,
+                    HeaderOf(dataset.name, options, false),
+                    std::move(grown.estimate),
+                    std::move(comparison),
+                    requirements,
+                    std::nullopt,
+                    compare.seed,
+                    std::move(target)});
+}
+
+// The effects to audit with; nothing without a --model, or where that has none.
+std::optional<Machine> OpenModel() {
+  if (FLAGS_model.empty()) return std::nullopt;
+  Machine model = ReadMachine(FLAGS_model);
+  if (model.effects.empty() && !model.pose_map) return std::nullopt;
+  RequireOptionsForEffects(CalibrateOptionsFromFlags());
+  if (!FLAGS_previous.empty())
+    throw UsageError(
+        "--previous compares base and tool alone: it does not go with a --model with effects");
+  return model;
+}
+
 int RunAudit(const std::vector<std::string>& files) {
   const auto start = std::chrono::steady_clock::now();
   if (FLAGS_gate && FLAGS_requirement.empty())
     throw UsageError("--gate needs a --requirement to gate by");
   const Dataset dataset = OpenDataset(files[0], true);
   IsByMarkers(dataset, CalibrateOptionsFromFlags());  // wrong usage shows before anything is read
+  const std::optional<Machine> model = OpenModel();
   std::optional<Requirements> requirements;
   if (!FLAGS_requirement.empty()) requirements = OpenRequirements(FLAGS_requirement, dataset);
   std::optional<EarlierResult> earlier;
@@ -131,18 +190,22 @@ int RunAudit(const std::vector<std::string>& files) {
                       AllInputs(dataset, requirements),
                       FLAGS_force);
   CheckHistoryFlag();
-  const Audit audit = AuditDataset(dataset, requirements, earlier);
+  Machine machine;
+  const Audit audit = model ? AuditGrown(dataset, *model, requirements, &machine)
+                            : AuditDataset(dataset, requirements, earlier);
+  if (!model) machine = MachineOf(dataset, audit.estimate);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunRecord record = RecordOf("audit", dataset, seconds, ThreadsFor(FLAGS_threads));
   record.inputs = AllInputs(dataset, requirements);
-  const std::string result = ResultJson(audit.header, audit.estimate);
+  const std::string result = ResultJson(audit.header, audit.estimate, machine.effects);
   AuditIdentity identity = IdentityOf(record, result);
-  HistoryEntry entry("audit", dataset, record, audit.header, audit.estimate, {}, result);
+  HistoryEntry entry(
+      "audit", dataset, record, audit.header, audit.estimate, machine.effects, result);
   record.history = entry.mark();
   identity.log = entry.log();
   folder.Write({{"audit.json", AuditJson(identity, audit)},
-                {"model.yaml", WriteMachine(MachineOf(dataset, audit.estimate))},
+                {"model.yaml", WriteMachine(machine)},
                 {"run.json", RunJson(record)},
                 {"result.json", result},
                 {"report.html", AuditHtml(identity, record, audit, result)}});
@@ -182,6 +245,10 @@ Command AuditCommand() {
        {"gate"},
        {"history"},
        {"operator"},
+       {"model",
+        false,
+        {},
+        "A model whose effects are estimated along with base and tool, and are in the errors."},
        {"solver"},
        {"residual"},
        {"start"},

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
+#include <memory>
 
 #include "estimator/calibrate.h"
+#include "estimator/grown_solution.h"
 #include "measurement/dataset.h"
 #include "model/machine.h"
 
@@ -14,6 +15,7 @@ struct GrownCalibration {
   // are the joint fit's, which knows that the effects are uncertain too.
   Estimate estimate;
   Machine machine;  // the model with base, tool and effects as this dataset tells them
+  std::shared_ptr<const GrownSolution> solution;  // refers to the dataset
 };
 
 // Base, tool and the effects of a model, on new data. Faults of the data are mended as the model

@@ -37,7 +37,9 @@ class Comparing {
     monte_carlo.keep_draws = options_.keep_draws;
     monte_carlo.progress = ProgressOf("repeating the measurement");
     comparison_.propagation =
-        CheckPropagation(observations_, levels_, comparison_.reference, monte_carlo);
+        options_.repeat
+            ? options_.repeat(monte_carlo)
+            : CheckPropagation(observations_, levels_, comparison_.reference, monte_carlo);
     MapBoth();
     return std::move(comparison_);
   }

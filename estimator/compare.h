@@ -22,7 +22,9 @@ struct CompareOptions {
   int folds = 5;               // of the cross-validation
   int draws = 10000;           // of the Monte Carlo check
   bool keep_draws = false;     // in its result
-  int starts = 20;             // of each cell of the convergence maps; 0: none
+  // In place of the repetition of base and tool alone.
+  std::function<PropagationCheck(const MonteCarloOptions&)> repeat = {};
+  int starts = 20;  // of each cell of the convergence maps; 0: none
   std::uint64_t seed = 1;
   int threads = 1;  // the result does not depend on it
   // What is being done, how far it is, of how much.

@@ -28,6 +28,12 @@ std::optional<DeletionError> ErrorAgainstOthers(const LinearisedError& at_fit,
                                                 bool is_in_fit) {
   const Matrix6d of_fit = at_fit.jacobian * fit_covariance * at_fit.jacobian.transpose();
   if (!is_in_fit) return DeletionError{at_fit.error, noise + of_fit};
+  return ErrorWithout(at_fit.error, noise, of_fit);
+}
+
+std::optional<DeletionError> ErrorWithout(const Vector6d& error,
+                                          const Matrix6d& noise,
+                                          const Matrix6d& of_fit) {
   const Matrix6d whitener = WhitenerOf(noise);
   const Matrix6d left = Matrix6d::Identity() - whitener * of_fit * whitener.transpose();
   const Eigen::LLT<Matrix6d> factor(left);
@@ -35,7 +41,7 @@ std::optional<DeletionError> ErrorAgainstOthers(const LinearisedError& at_fit,
       !(factor.matrixLLT().diagonal().cwiseAbs2().minCoeff() > kSmallestShare))
     return std::nullopt;
   const Matrix6d unwhiten = noise * whitener.transpose();  // whitener^-1
-  return DeletionError{unwhiten * factor.solve(whitener * at_fit.error),
+  return DeletionError{unwhiten * factor.solve(whitener * error),
                        unwhiten * factor.solve(unwhiten.transpose())};
 }
 

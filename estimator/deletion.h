@@ -29,4 +29,9 @@ std::optional<DeletionError> ErrorAgainstOthers(const LinearisedError& at_fit,
                                                 const Matrix12d& fit_covariance,
                                                 bool is_in_fit);
 
+// The same of any fit: of_fit is the covariance of its prediction, J fit_covariance J'.
+std::optional<DeletionError> ErrorWithout(const Vector6d& error,
+                                          const Matrix6d& noise,
+                                          const Matrix6d& of_fit);
+
 }  // namespace hexcal

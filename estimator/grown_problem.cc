@@ -45,6 +45,14 @@ bool HasPrior(const GrownEffect& effect, std::size_t k) {
 
 }  // namespace
 
+Corrections<double> CorrectionsOf(const std::vector<Effect>& effects,
+                                  const std::optional<PoseMap>& pose_map,
+                                  const Visit& visit) {
+  Corrections<double> corrections = CorrectionsOf(effects, visit);
+  if (pose_map) corrections.platform_twist += PoseMapTwist(*pose_map, visit.base_from_platform);
+  return corrections;
+}
+
 GrownProblem::GrownProblem(Data data, std::vector<GrownEffect> effects)
     : data_(std::move(data)),
       effects_(std::move(effects)),
@@ -92,11 +100,8 @@ std::vector<Corrections<double>> GrownProblem::CorrectionsAt(
     const std::vector<Effect>& effects) const {
   std::vector<Corrections<double>> corrections;
   corrections.reserve(data_.visits->size());
-  for (const Visit& visit : *data_.visits) {
-    corrections.push_back(CorrectionsOf(effects, visit));
-    if (data_.pose_map)
-      corrections.back().platform_twist += PoseMapTwist(*data_.pose_map, visit.base_from_platform);
-  }
+  for (const Visit& visit : *data_.visits)
+    corrections.push_back(CorrectionsOf(effects, data_.pose_map, visit));
   return corrections;
 }
 

@@ -30,6 +30,11 @@ struct GrownEffect {
   Eigen::VectorXd prior_mean, prior_sigma;
 };
 
+// What effects and pose map do to one visit.
+Corrections<double> CorrectionsOf(const std::vector<Effect>& effects,
+                                  const std::optional<PoseMap>& pose_map,
+                                  const Visit& visit);
+
 // A machine with effects and the data that it is held against. Residuals, dimensionless: W
 // (measured [-] predicted) of each pose, the markers' misfit within their bodies, the priors.
 // Parameters: 12 right perturbations of the mounts, the free numbers of the effects in their order.

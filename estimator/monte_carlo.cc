@@ -18,22 +18,15 @@ constexpr double kNormalFactor = 1.959963984540054;  // of a 95 % interval
 constexpr int kDigits = 2;
 // The draws are cut into so many blocks, whose scatter tells how still the limits stand.
 constexpr int kBlocks = 10;
-constexpr int kMostRounds = 10;
 constexpr int kMaxSteps = 30;
 // Squared length of a step in standard deviations after which nothing is left to do.
 constexpr double kArrived = 1e-8;
 // Noise below so many roundings of the data is none.
 constexpr double kRoundings = 1e4;
 
-using Draws = Eigen::Matrix<double, 12, Eigen::Dynamic>;
+using Block = Repetition::Block;
 
-// Draws of the estimator and, from the same noise, of its linear part; minus the estimate.
-struct Block {
-  Draws estimator, linear;
-  int not_converged = 0;
-};
-
-class Repeater {
+class Repeater final : public Repetition {
  public:
   Repeater(const Observations& observations, const NoiseLevels& levels, const Estimate& estimate)
       : rows_(observations.items),
@@ -61,10 +54,9 @@ class Repeater {
     sigma_ = inverse.diagonal().cwiseSqrt();
   }
 
-  const Vector12d& sigma() const { return sigma_; }
+  const Eigen::VectorXd& sigma() const override { return sigma_; }
 
-  // The block of that number, the same whenever and wherever it is drawn.
-  Block Run(int draws, std::uint64_t seed, std::size_t number) const {
+  Block Run(int draws, std::uint64_t seed, std::size_t number) const override {
     Block block;
     block.estimator.resize(12, draws);
     block.linear.resize(12, draws);
@@ -124,7 +116,7 @@ class Repeater {
   std::vector<Matrix6d> roots_;  // of the covariances
   std::vector<Eigen::Matrix<double, 12, 6>> gains_;
   PoseWeights weights_;
-  Vector12d sigma_;
+  Eigen::VectorXd sigma_;
 };
 
 // The ends of the probabilistically symmetric interval (JCGM 101, 7.7).
@@ -182,7 +174,7 @@ IntervalCheck CheckOne(const std::vector<Block>& blocks, int row, double sigma) 
 }
 
 // Runs blocks number first to first + kBlocks, a few at a time, in order.
-void Append(const Repeater& repeater,
+void Append(const Repetition& repetition,
             const MonteCarloOptions& options,
             std::vector<Block>* blocks) {
   const std::size_t end = blocks->size() + kBlocks;
@@ -191,8 +183,8 @@ void Append(const Repeater& repeater,
   for (std::size_t next = blocks->size(); blocks->size() < end;) {
     for (; next < end && running.size() < static_cast<std::size_t>(std::max(options.threads, 1));
          ++next) {
-      running.push_back(std::async(std::launch::async, [&repeater, &options, size, next] {
-        return repeater.Run(size, options.seed, next);
+      running.push_back(std::async(std::launch::async, [&repetition, &options, size, next] {
+        return repetition.Run(size, options.seed, next);
       }));
     }
     blocks->push_back(running.front().get());
@@ -203,7 +195,7 @@ void Append(const Repeater& repeater,
 }
 
 void Keep(const std::vector<Block>& blocks, PropagationCheck* check) {
-  check->estimates.resize(12, check->draws);
+  check->estimates.resize(blocks.front().estimator.rows(), check->draws);
   Eigen::Index next = 0;
   for (const Block& block : blocks) {
     check->estimates.middleCols(next, block.estimator.cols()) = block.estimator;
@@ -223,27 +215,30 @@ PropagationCheck CheckPropagation(const Observations& observations,
                                   const Estimate& estimate,
                                   const MonteCarloOptions& options) {
   PropagationCheck check;
-  if (!estimate.converged) {
-    check.why_not = "the solver did not converge";
-    return check;
-  }
-  if (estimate.observability.null_directions > 0) {
-    check.why_not = "the data do not determine " + estimate.observability.weak_directions[0];
-    return check;
-  }
+  check.why_not = WhyNotRepeated(observations, estimate);
+  if (!check.why_not.empty()) return check;
+  return CheckRepetition(Repeater(observations, levels, estimate), options);
+}
+
+std::string WhyNotRepeated(const Observations& observations, const Estimate& estimate) {
+  if (!estimate.converged) return "the solver did not converge";
+  if (estimate.observability.null_directions > 0)
+    return "the data do not determine " + estimate.observability.weak_directions[0];
   const NoiseLevels rounding = Rounding(observations.items);
   if (!(estimate.noise.position > kRoundings * rounding.position &&
-        estimate.noise.orientation > kRoundings * rounding.orientation)) {
-    check.why_not = "there is no noise to repeat but rounding";
-    return check;
-  }
-  const Repeater repeater(observations, levels, estimate);
+        estimate.noise.orientation > kRoundings * rounding.orientation))
+    return "there is no noise to repeat but rounding";
+  return "";
+}
+
+PropagationCheck CheckRepetition(const Repetition& repetition, const MonteCarloOptions& options) {
+  PropagationCheck check;
   std::vector<Block> blocks;
-  for (int round = 0; round < kMostRounds && !check.stable; ++round) {
-    Append(repeater, options, &blocks);
+  for (int round = 0; round < options.most_rounds && !check.stable; ++round) {
+    Append(repetition, options, &blocks);
     check.stable = check.validated = true;
     for (int i = 0; i < 12; ++i) {
-      check.intervals[i] = CheckOne(blocks, i, repeater.sigma()[i]);
+      check.intervals[i] = CheckOne(blocks, i, repetition.sigma()[i]);
       check.stable =
           check.stable && check.intervals[i].accuracy <= 0.2 * check.intervals[i].tolerance;
       check.validated = check.validated && check.intervals[i].agrees;

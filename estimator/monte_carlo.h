@@ -12,7 +12,8 @@
 namespace hexcal {
 
 struct MonteCarloOptions {
-  int draws = 10000;  // to begin with; ten times as many at most, until the limits stand still
+  int draws = 10000;  // to begin with; as many again until the limits stand still
+  int most_rounds = 10;
   std::uint64_t seed = 1;
   int threads = 1;                           // the result does not depend on it
   std::function<void(long, long)> progress;  // done, of; from the calling thread
@@ -41,8 +42,25 @@ struct PropagationCheck {
   std::array<IntervalCheck, 12> intervals;
   bool stable = false;     // every accuracy within a fifth of its tolerance (8.2)
   bool validated = false;  // every interval agrees
-  // Where they were to be kept: what each repetition estimated, minus the estimate. 12 x draws.
-  Eigen::Matrix<double, 12, Eigen::Dynamic> estimates;
+  // Where they were to be kept: what each repetition estimated, minus the estimate. 12 x draws;
+  // more rows where more than base and tool is estimated.
+  Eigen::MatrixXd estimates;
+};
+
+// A measurement that can be made again with other noise, and estimated from.
+class Repetition {
+ public:
+  // Draws of the estimator and, from the same noise, of its linear part; minus the estimate. A
+  // draw a column, the 12 parameters first.
+  struct Block {
+    Eigen::MatrixXd estimator, linear;
+    int not_converged = 0;
+  };
+  virtual ~Repetition() = default;
+  // Standard deviations of the linear part.
+  virtual const Eigen::VectorXd& sigma() const = 0;
+  // The block of that number, the same whenever and wherever it is drawn.
+  virtual Block Run(int draws, std::uint64_t seed, std::size_t number) const = 0;
 };
 
 // The limits are those of the draws, less what the linear estimator, whose limits are known, makes
@@ -52,6 +70,12 @@ PropagationCheck CheckPropagation(const Observations& observations,
                                   const NoiseLevels& levels,
                                   const Estimate& estimate,
                                   const MonteCarloOptions& options);
+
+// The same of any repetition, for its first 12 parameters.
+PropagationCheck CheckRepetition(const Repetition& repetition, const MonteCarloOptions& options);
+
+// Why an estimate is not to be repeated; empty: it may be.
+std::string WhyNotRepeated(const Observations& observations, const Estimate& estimate);
 
 // JCGM 101, 7.9.2: half of one unit in the last of so many digits of a standard uncertainty.
 double NumericalTolerance(double sigma, int digits);

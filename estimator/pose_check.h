@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "estimator/grown_solution.h"
 #include "estimator/observations.h"
 
 namespace hexcal {
@@ -31,5 +32,9 @@ std::vector<PoseCheck> CheckPoses(const Observations& observations,
                                   const NoiseLevels& levels,
                                   double alpha,
                                   double power);
+
+// The same with the effects of a model fitted along with base and tool. What a pose's markers say
+// within their bodies stays in the fit without it.
+std::vector<PoseCheck> CheckPoses(const GrownSolution& solution, double alpha, double power);
 
 }  // namespace hexcal

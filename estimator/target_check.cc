@@ -47,15 +47,24 @@ struct Motion {
     if (site == SourceSite::kPoint) point += step.head<3>();
     if (site == SourceSite::kPointInTool) point_in_tool += step.head<3>();
   }
-  Eigen::Vector3d Moved(const BaseAndTool& mounts,
-                        const Pose3d& pose,
-                        const Eigen::Vector3d& p) const {
+  Eigen::Vector3d Moved(const GrownTarget::Chain& chain, const Eigen::Vector3d& p) const {
     return Plus(Pose3d{}, world) *
-               (mounts.world_from_base * Plus(pose, platform) *
-                Plus(mounts.platform_from_tool, tool) * Eigen::Vector3d(p + point_in_tool)) +
+               (chain.mounts.world_from_base * Plus(chain.base_from_platform, platform) *
+                Plus(chain.mounts.platform_from_tool, tool) * Eigen::Vector3d(p + point_in_tool)) +
            point;
   }
 };
+
+// As the machine is with its parameters this much off.
+std::optional<GrownTarget::Chain> ChainOff(const BaseAndTool& mounts,
+                                           const GrownTarget* grown,
+                                           const Pose3d& pose,
+                                           const Eigen::VectorXd& step) {
+  if (grown != nullptr) return grown->ChainAt(pose, GrownTarget::kNoRow, step);
+  return GrownTarget::Chain{{Plus(mounts.world_from_base, Vector6d(step.head<6>())),
+                             Plus(mounts.platform_from_tool, Vector6d(step.tail<6>()))},
+                            pose};
+}
 
 double At(const std::vector<double>& sorted, double share) {
   const double last = static_cast<double>(sorted.size() - 1);
@@ -70,7 +79,8 @@ TargetCheck CheckTarget(const Estimate& estimate,
                         const Pose3d& base_from_platform,
                         const Eigen::Vector3d& p_in_tool,
                         double probability,
-                        std::uint64_t seed) {
+                        std::uint64_t seed,
+                        const std::shared_ptr<const GrownTarget>& grown) {
   CHECK_GT(propagation.estimates.cols(), 0) << "the draws were not kept";
   Estimate known = estimate;
   known.covariance = estimate.covariance_unscaled;
@@ -78,22 +88,29 @@ TargetCheck CheckTarget(const Estimate& estimate,
   std::vector<ErrorSource> of_known = sources;
   for (ErrorSource& source : of_known)
     source.degrees_of_freedom = std::numeric_limits<double>::infinity();
+  const auto known_grown =
+      grown ? std::make_shared<const GrownTarget>(grown->OfKnownNoise()) : nullptr;
   const TargetCovariance first_order =
-      TargetError(known, of_known).At(base_from_platform, p_in_tool);
+      TargetError(known, of_known, known_grown).At(base_from_platform, p_in_tool);
+  GrownTarget::Chain real = {estimate.mounts, base_from_platform};
+  if (grown) {
+    const auto at = grown->At(base_from_platform, GrownTarget::kNoRow);
+    CHECK(at) << "a place out of the legs' reach";
+    real = at->chain;
+  }
 
   std::mt19937_64 rng(seed);
   std::vector<double> lengths;
   double squares = 0.0;
   for (Eigen::Index k = 0; k < propagation.estimates.cols(); ++k) {
-    const Vector12d d = propagation.estimates.col(k);
+    const auto found =
+        ChainOff(estimate.mounts, grown.get(), base_from_platform, propagation.estimates.col(k));
+    if (!found) continue;
     Motion motion;
     for (const ErrorSource& source : sources) motion.Add(source.site, Draw(source, &rng));
-    const BaseAndTool found = {Plus(estimate.mounts.world_from_base, Vector6d(d.head<6>())),
-                               Plus(estimate.mounts.platform_from_tool, Vector6d(d.tail<6>()))};
-    const Eigen::Vector3d predicted =
-        found.world_from_base * base_from_platform * found.platform_from_tool * p_in_tool;
-    lengths.push_back(
-        (predicted - motion.Moved(estimate.mounts, base_from_platform, p_in_tool)).norm());
+    const Eigen::Vector3d predicted = found->mounts.world_from_base * found->base_from_platform *
+                                      found->mounts.platform_from_tool * p_in_tool;
+    lengths.push_back((predicted - motion.Moved(real, p_in_tool)).norm());
     squares += lengths.back() * lengths.back();
   }
   std::sort(lengths.begin(), lengths.end());

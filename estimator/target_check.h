@@ -20,13 +20,15 @@ struct TargetCheck {
   bool agrees = false;  // quantiles differ by no more than tolerance and two standard errors
 };
 
-// propagation: with its draws kept, of the same estimate. Noise counts as known on both sides.
+// propagation: with its draws kept, of the same estimate, or of the joint fit of `grown`. The place
+// is no row of the dataset. Noise counts as known on both sides.
 TargetCheck CheckTarget(const Estimate& estimate,
                         const std::vector<ErrorSource>& sources,
                         const PropagationCheck& propagation,
                         const Pose3d& base_from_platform,
                         const Eigen::Vector3d& p_in_tool,
                         double probability,
-                        std::uint64_t seed);
+                        std::uint64_t seed,
+                        const std::shared_ptr<const GrownTarget>& grown = nullptr);
 
 }  // namespace hexcal

@@ -73,27 +73,53 @@ Eigen::Matrix<double, 3, 12> TargetJacobian(const BaseAndTool& mounts,
          PaperJacobian(base_from_tool);
 }
 
-TargetError::TargetError(const Estimate& estimate, std::vector<ErrorSource> sources)
+TargetError::TargetError(const Estimate& estimate,
+                         std::vector<ErrorSource> sources,
+                         std::shared_ptr<const GrownTarget> grown)
     : mounts_(estimate.mounts),
       covariance_(CoverageCovariance(estimate)),
       degrees_of_freedom_(LeastDegreesOfFreedom(estimate)),
-      sources_(std::move(sources)) {}
+      sources_(std::move(sources)),
+      grown_(std::move(grown)) {}
+
+GrownTarget::Chain TargetError::Calibration(const Pose3d& base_from_platform,
+                                            const Eigen::Vector3d& p_in_tool,
+                                            int row,
+                                            TargetCovariance* target) const {
+  if (!grown_) {
+    const Eigen::Matrix<double, 3, 12> j = TargetJacobian(mounts_, base_from_platform, p_in_tool);
+    target->calibration = j * covariance_ * j.transpose();
+    return {mounts_, base_from_platform};
+  }
+  const auto at = grown_->At(base_from_platform, row);
+  if (!at) {
+    target->calibration.setConstant(std::numeric_limits<double>::quiet_NaN());
+    return {mounts_, base_from_platform};
+  }
+  const Eigen::MatrixXd j = PointJacobian(at->chain.WorldFromTool(), p_in_tool) * at->by_parameters;
+  const Eigen::MatrixXd by_mounts = j.leftCols<12>();
+  target->calibration = j * grown_->covariance() * j.transpose();
+  target->of_effects = target->calibration -
+                       by_mounts * grown_->covariance_of_known_effects() * by_mounts.transpose();
+  target->by_priors = j * grown_->covariance_by_priors() * j.transpose();
+  return at->chain;
+}
 
 TargetCovariance TargetError::At(const Pose3d& base_from_platform,
-                                 const Eigen::Vector3d& p_in_tool) const {
-  const Pose3d world_from_platform = mounts_.world_from_base * base_from_platform;
-  const Pose3d world_from_tool = world_from_platform * mounts_.platform_from_tool;
+                                 const Eigen::Vector3d& p_in_tool,
+                                 int row) const {
   TargetCovariance target;
+  const GrownTarget::Chain chain = Calibration(base_from_platform, p_in_tool, row, &target);
+  const Pose3d world_from_platform = chain.WorldFromPlatform();
+  const Pose3d world_from_tool = chain.WorldFromTool();
   target.p_in_world = world_from_tool * p_in_tool;
-  const Eigen::Matrix<double, 3, 12> j = TargetJacobian(mounts_, base_from_platform, p_in_tool);
-  target.calibration = j * covariance_ * j.transpose();
   target.total = target.calibration;
   double per_freedom = std::pow(target.calibration.trace(), 2) / degrees_of_freedom_;
   for (const ErrorSource& source : sources_) {
     Matrix36d carry = Matrix36d::Zero();
     switch (source.site) {
       case SourceSite::kPlatform:
-        carry = PointJacobian(world_from_platform, mounts_.platform_from_tool * p_in_tool);
+        carry = PointJacobian(world_from_platform, chain.mounts.platform_from_tool * p_in_tool);
         break;
       case SourceSite::kTool:
         carry = PointJacobian(world_from_tool, p_in_tool);

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "estimator/estimate.h"
+#include "estimator/grown_target.h"
 
 namespace hexcal {
 
@@ -34,7 +36,9 @@ struct ErrorSource {
 // The error of a point where the robot reports a pose: predicted minus true, axes of frame W, m^2.
 struct TargetCovariance {
   Eigen::Vector3d p_in_world;
-  Eigen::Matrix3d calibration;          // J covariance J'
+  Eigen::Matrix3d calibration;  // J covariance J'
+  // Parts of it: what would go were the effects of the model known; what rests on their priors.
+  Eigen::Matrix3d of_effects = Eigen::Matrix3d::Zero(), by_priors = Eigen::Matrix3d::Zero();
   std::vector<Eigen::Matrix3d> shares;  // of the sources, in their order
   Eigen::Matrix3d total;
   double degrees_of_freedom = 0.0;  // with which total is known (Welch-Satterthwaite, by traces)
@@ -47,18 +51,31 @@ struct TargetCovariance {
 // where the points really are. First order in the errors.
 class TargetError {
  public:
-  TargetError(const Estimate& estimate, std::vector<ErrorSource> sources);
+  // grown: the machine whose effects the estimate was made with; null: base and tool alone.
+  TargetError(const Estimate& estimate,
+              std::vector<ErrorSource> sources,
+              std::shared_ptr<const GrownTarget> grown = nullptr);
 
-  TargetCovariance At(const Pose3d& base_from_platform, const Eigen::Vector3d& p_in_tool) const;
+  // row: of the dataset's, where the place is one of its poses; only effects ask for it. All NaN
+  // where effects put the legs out of reach.
+  TargetCovariance At(const Pose3d& base_from_platform,
+                      const Eigen::Vector3d& p_in_tool,
+                      int row = GrownTarget::kNoRow) const;
 
-  const BaseAndTool& mounts() const { return mounts_; }
   const std::vector<ErrorSource>& sources() const { return sources_; }
 
  private:
+  // The chain there, and the calibration's share of the target's covariance.
+  GrownTarget::Chain Calibration(const Pose3d& base_from_platform,
+                                 const Eigen::Vector3d& p_in_tool,
+                                 int row,
+                                 TargetCovariance* target) const;
+
   BaseAndTool mounts_;
   Matrix12d covariance_;  // of the 12, as CoverageCovariance
   double degrees_of_freedom_;
   std::vector<ErrorSource> sources_;
+  std::shared_ptr<const GrownTarget> grown_;
 };
 
 // The covariance that makes the estimate's 95 % intervals those of Student's t: wider than

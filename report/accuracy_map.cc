@@ -42,6 +42,7 @@ class Mapping {
           const Pose3d pose = PoseFromVector(pose_vector);
           if (!IsReached(dataset_, pose)) continue;
           TargetCovariance at = error_.At(pose, p_in_tool_);
+          if (!std::isfinite(at.total.trace())) continue;  // effects put it out of reach
           if (!worst || at.total.trace() > worst->total.trace()) worst = std::move(at);
         }
     return worst ? worst->Quantile(probability_) : std::numeric_limits<double>::quiet_NaN();

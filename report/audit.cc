@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 
 #include "estimator/mount_change.h"
 #include "estimator/quantiles.h"
 #include "estimator/registration_error.h"
 #include "geometry/rotation_angles.h"
+#include "report/audit_budget.h"
+#include "report/audit_model.h"
 #include "report/decide.h"
 
 namespace hexcal {
@@ -134,47 +135,12 @@ Change ChangeOf(const EarlierResult& earlier, const Audit& audit) {
 }
 
 PointAt AtPlace(const TargetError& error, const NamedPoint& point, const Place& place) {
-  const TargetCovariance at = error.At(place.base_from_platform, point.p_in_tool);
-  return {place, at.Rms(), at.Quantile(kProbability)};
-}
-
-std::string FileName(const std::string& path) {
-  return std::filesystem::path(path).filename().string();
-}
-
-std::vector<BudgetRow> BudgetOf(const Audit& audit,
-                                const NamedPoint& point,
-                                const TargetCovariance& at) {
-  std::vector<BudgetRow> rows;
-  const double total = at.total.trace();
-  const auto add = [&](const std::string& name,
-                       const std::string& origin,
-                       char type,
-                       const Eigen::Matrix3d& share,
-                       double dof) {
-    rows.push_back({name, origin, type, std::sqrt(share.trace()), share.trace() / total, dof});
-  };
-  add("calibration of base and tool",
-      "the covariance of the 12 parameters",
-      'A',
-      at.calibration,
-      LeastDegreesOfFreedom(audit.estimate));
-  std::size_t i = 0;
-  const Requirements& stated = audit.requirements;
-  if (stated.robot)
-    add(stated.robot->source.name,
-        stated.robot->origin,
-        'B',
-        at.shares[i++],
-        stated.robot->source.degrees_of_freedom);
-  for (const StatedSource& source : stated.sources)
-    add(source.source.name, source.origin, 'B', at.shares[i++], source.source.degrees_of_freedom);
-  add("the point in frame T",
-      point.pivot ? "pivoting, " + FileName(point.pivot->path) : "its standard_deviation",
-      point.pivot ? 'A' : 'B',
-      at.shares[i],
-      point.Source().degrees_of_freedom);
-  return rows;
+  const TargetCovariance at = error.At(place.base_from_platform, point.p_in_tool, place.row);
+  const double calibration = at.calibration.trace();
+  return {place,
+          at.Rms(),
+          at.Quantile(kProbability),
+          calibration > 0.0 ? at.by_priors.trace() / calibration : 0.0};
 }
 
 PointReport ReportPoint(const Audit& audit,
@@ -182,7 +148,7 @@ PointReport ReportPoint(const Audit& audit,
                         const std::vector<Place>& places,
                         const AuditInput& input) {
   const std::vector<ErrorSource> sources = SourcesOf(audit, point);
-  const TargetError error(audit.estimate, sources);
+  const TargetError error = ErrorOf(audit, point);
   PointReport report;
   report.point = point;
   report.centre = AtPlace(error, point, {"", PoseFromVector(audit.workspace.Centre())});
@@ -192,13 +158,14 @@ PointReport ReportPoint(const Audit& audit,
   report.budget = BudgetOf(audit, point, error.At(pose, point.p_in_tool));
   const PropagationCheck& propagation = audit.comparison.propagation;
   if (propagation.done)
-    report.check = CheckTarget(audit.comparison.reference,
+    report.check = CheckTarget(audit.grown ? audit.estimate : audit.comparison.reference,
                                sources,
                                propagation,
                                pose,
                                point.p_in_tool,
                                kProbability,
-                               input.seed);
+                               input.seed,
+                               audit.grown);
   report.map = MapAccuracy(error, point.p_in_tool, audit.workspace, input.dataset, kProbability);
   return report;
 }
@@ -226,6 +193,7 @@ std::vector<std::string> DoubtsOf(const Audit& audit) {
                                      ? std::string("a pose")
                                      : fmt::format("{} poses", estimate.outliers.size()),
                                  estimate.outliers.size() == 1 ? "was" : "were"));
+  AddDoubtsOfModel(audit, &doubts);
   return doubts;
 }
 
@@ -251,6 +219,10 @@ std::vector<ErrorSource> SourcesOf(const Audit& audit, const NamedPoint& point) 
   return sources;
 }
 
+TargetError ErrorOf(const Audit& audit, const NamedPoint& point) {
+  return {audit.estimate, SourcesOf(audit, point), audit.grown};
+}
+
 Audit MakeAudit(AuditInput input) {
   Audit audit;
   audit.header = input.header;
@@ -258,6 +230,7 @@ Audit MakeAudit(AuditInput input) {
   audit.requirements = RequirementsOf(input);
   audit.estimate = std::move(input.estimate);
   audit.comparison = std::move(input.comparison);
+  audit.grown = input.grown;
   audit.robot_is_stated = audit.requirements.robot.has_value();
   if (audit.robot_is_stated) audit.sources.push_back(audit.requirements.robot->source);
   for (const StatedSource& stated : audit.requirements.sources)
@@ -273,16 +246,20 @@ Audit MakeAudit(AuditInput input) {
   audit.bodies = BodiesOf(input.dataset, audit.estimate, audit);
   if (audit.estimate.IsTrustworthy()) {
     audit.poses =
-        CheckPoses(input.observations, audit.estimate.mounts, input.levels, kAlpha, kPower);
+        audit.grown
+            ? CheckPoses(audit.grown->solution(), kAlpha, kPower)
+            : CheckPoses(input.observations, audit.estimate.mounts, input.levels, kAlpha, kPower);
     audit.held_out = HeldOutTestOf(audit.poses);
   }
-  audit.doubts = DoubtsOf(audit);
-  const std::vector<Place> places = GridOf(audit.workspace, input.dataset);
+  std::vector<Place> places = GridOf(audit.workspace, input.dataset);
+  if (audit.grown) KeepReached(*audit.grown, &places);
   audit.places = places.size();
-  const std::vector<Place> poses = PosesOf(input.observations);
+  const std::vector<Place> poses =
+      audit.grown ? PosesOf(audit.grown->solution()) : PosesOf(input.observations);
   if (audit.estimate.IsTrustworthy() && !places.empty())
     for (const NamedPoint& point : audit.requirements.points)
       audit.points.push_back(ReportPoint(audit, point, places, input));
+  audit.doubts = DoubtsOf(audit);
   for (const Requirement& requirement : audit.requirements.requirements)
     audit.decisions.push_back(Decide(
         audit, requirement, requirement.over == Requirement::Places::kWorkspace ? places : poses));

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "estimator/compare.h"
+#include "estimator/grown_target.h"
 #include "estimator/pose_check.h"
 #include "estimator/target_check.h"
 #include "report/accuracy_map.h"
@@ -38,6 +40,7 @@ struct PointAt {
   Place place;
   double rms = 0.0;
   double length_95 = 0.0;  // not exceeded with 95 %, m
+  double by_priors = 0.0;  // share of the calibration's variance that rests on effects' priors
 };
 
 // A point of the tool, in the middle of the workspace and where it is worst in it.
@@ -114,8 +117,9 @@ struct Audit {
   std::vector<Decision> decisions;
   std::vector<BodyReport> bodies;
   std::optional<Change> change;
-  std::vector<ErrorSource> sources;  // with the points' own errors left out
-  std::vector<std::string> doubts;   // why nothing may pass
+  std::shared_ptr<const GrownTarget> grown;  // where effects of a model are in it
+  std::vector<ErrorSource> sources;          // with the points' own errors left out
+  std::vector<std::string> doubts;           // why nothing may pass
   Compliance compliance = Compliance::kNotAsked;
 };
 
@@ -129,11 +133,14 @@ struct AuditInput {
   std::optional<Requirements> requirements;
   std::optional<EarlierResult> earlier;
   std::uint64_t seed = 1;
+  // The model with effects that the estimate was made with; the observations are then its own.
+  std::shared_ptr<const GrownTarget> grown = nullptr;
 };
 
 Audit MakeAudit(AuditInput input);
 
 // The sources of error of a point: those of the audit and the point's own.
 std::vector<ErrorSource> SourcesOf(const Audit& audit, const NamedPoint& point);
+TargetError ErrorOf(const Audit& audit, const NamedPoint& point);
 
 }  // namespace hexcal

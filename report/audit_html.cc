@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "report/audit_model.h"
 #include "report/audit_sections.h"
 #include "report/estimate_sections.h"
 #include "report/html/page.h"
@@ -134,9 +135,10 @@ void AddModel(const Audit& audit, HtmlPage* page) {
   page->Section("Model and assumptions");
   const Estimate& estimate = audit.estimate;
   page->List(
-      {"measured = T_B^W T_A^B T_T^A with noise; estimated are 12 numbers, a small motion of six "
-       "for "
-       "T_B^W and for T_T^A each. Nothing else of the machine is corrected.",
+      {std::string("measured = T_B^W T_A^B T_T^A with noise; estimated are 12 numbers, a small "
+                   "motion of six for T_B^W and for T_T^A each") +
+           (audit.grown ? ", and with them the effects of the model, below."
+                        : ". Nothing else of the machine is corrected."),
        fmt::format(
            "Solver: {}, {}.",
            audit.header.solver,
@@ -153,6 +155,7 @@ void AddModel(const Audit& audit, HtmlPage* page) {
        audit.robot_is_stated
            ? "The robot's own error is in the budget, as stated."
            : "Nothing is stated of the robot's own error; it is left out, and nothing passes."});
+  if (audit.grown) AddModelEffects(audit, page);
 }
 
 // For programs that are given nothing but the page.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/rotation_angles.h"
+#include "report/audit_model.h"
 #include "report/json_parts.h"
 #include "report/json_text.h"
 
@@ -197,6 +198,7 @@ Json AuditObject(const AuditIdentity& identity, const Audit& audit) {
   json["bodies"] = Bodies(audit);
   json["poses"] = Poses(audit);
   json["change"] = audit.change ? ChangeObject(audit) : Json();
+  if (audit.grown) json["model"] = JsonModel(audit);
   if (identity.log) json["history"] = ChangeLogJson(*identity.log);
   json["warnings"] = audit.estimate.warnings;
   return json;

@@ -84,7 +84,7 @@ Worst WorstPlace(const TargetError& error,
   };
   std::vector<Bounded> all;
   for (const Place& place : places) {
-    Bounded one = {&place, error.At(place.base_from_platform, p_in_tool), 0.0};
+    Bounded one = {&place, error.At(place.base_from_platform, p_in_tool, place.row), 0.0};
     const double largest = DecomposeSymmetric(one.at.total).values[2];
     // Length of the unit ball's error once, scaled.
     one.bound = std::sqrt(std::max(largest, 0.0));
@@ -123,11 +123,12 @@ Decision Decide(const Audit& audit,
     return decision;
   }
   const NamedPoint& point = audit.requirements.points[requirement.point];
-  const TargetError error(audit.estimate, SourcesOf(audit, point));
+  const TargetError error = ErrorOf(audit, point);
   const Worst worst = WorstPlace(error, point.p_in_tool, places, requirement.probability);
   decision.worst = worst.place;
   decision.value = worst.length;
-  const TargetCovariance at = error.At(worst.place.base_from_platform, point.p_in_tool);
+  const TargetCovariance at =
+      error.At(worst.place.base_from_platform, point.p_in_tool, worst.place.row);
   decision.guard =
       kCoverageFactor * decision.value *
       std::hypot(RelativeUncertainty(at, audit, error), OfNonlinearity(audit, requirement.point));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "estimator/grown_target.h"
 #include "estimator/observations.h"
 #include "measurement/dataset.h"
 
@@ -23,6 +24,7 @@ struct Workspace {
 struct Place {
   std::string label;  // of a pose of the dataset; empty: of the grid
   Pose3d base_from_platform;
+  int row = GrownTarget::kNoRow;  // of the dataset's, where effects ask for it
 };
 
 Workspace MakeWorkspace(const std::optional<std::array<std::array<double, 2>, 6>>& stated,

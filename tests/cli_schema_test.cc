@@ -157,7 +157,9 @@ TEST(CliSchema, HoldsForWhatDiscoverPlanAndSimulateWrite) {
   EXPECT_EQ(Call({"plan", hidden, model, "--for=rivals", "--out=c.json"}, folder).status, 0);
   EXPECT_EQ(Call({"simulate", hidden, model, "--out=d"}, folder).status, 0);
   EXPECT_EQ(Call({"calibrate", hidden, model, "--out=e"}, folder).status, 0);
-  ExpectValid(folder, {"dataset", "discovery", "model", "plan", "result", "run"});
+  EXPECT_EQ(Call({"audit", hidden, model, "--draws=1000", "--folds=2", "--out=f"}, folder).status,
+            0);
+  ExpectValid(folder, {"audit", "dataset", "discovery", "model", "plan", "result", "run"});
 }
 
 TEST(CliSchema, HoldsForWhatPivotWrites) {
