@@ -14,6 +14,8 @@
 #include "apps/usage_error.h"
 #include "estimator/pivot.h"
 #include "measurement/dataset_header.h"
+#include "report/html/page.h"
+#include "report/pivot_html.h"
 #include "report/pivot_json.h"
 #include "report/pivot_table.h"
 
@@ -74,20 +76,23 @@ int RunPivot(const std::vector<std::string>& files) {
   PrintWarnings(dataset.name, dataset.warnings);
   PrintWarnings(dataset.name, pivoting.poses.warnings);
   const std::vector<std::string> inputs = InputsOf(dataset);
-  OutputFolder folder(
-      FLAGS_out,
-      dataset.name,
-      {{"pivot.json", std::string(kPivotMark)}, {"run.json", std::string(kRunMark)}},
-      inputs,
-      FLAGS_force);
+  std::vector<OutputFile> outputs = {{"pivot.json", std::string(kPivotMark)},
+                                     {"run.json", std::string(kRunMark)}};
+  if (FLAGS_report) outputs.push_back({"report.html", HtmlPage::AnyMark()});
+  OutputFolder folder(FLAGS_out, dataset.name, outputs, inputs, FLAGS_force);
   PivotOptions options;
   options.reject_outliers = FLAGS_outliers == "reject";
-  const PivotResult result = CalibratePivot(MakePivotPoses(pivoting, NoiseFromFlags()), options);
+  const PivotPoses poses = MakePivotPoses(pivoting, NoiseFromFlags());
+  const PivotResult result = CalibratePivot(poses, options);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunRecord record = RecordOf("pivot", dataset, seconds, 1);
   record.inputs = inputs;
-  folder.Write({{"pivot.json", PivotJson(dataset, result)}, {"run.json", RunJson(record)}});
+  std::vector<std::pair<std::string, std::string>> results = {
+      {"pivot.json", PivotJson(dataset, result)}, {"run.json", RunJson(record)}};
+  if (FLAGS_report)
+    results.emplace_back("report.html", PivotHtml(dataset.name, record, poses, options, result));
+  folder.Write(results);
   PrintWarnings(dataset.name, result.warnings);
   if (FLAGS_json && !FLAGS_quiet)
     fmt::print("{}\n", PivotJsonLine(dataset, result));
@@ -110,9 +115,11 @@ Command PivotCommand() {
       "from a .csv table of poses (pose,x,y,z with angles, a quaternion or a matrix), and finds "
       "the tip in frame T and the pivot in the frame of the poses with their covariance, by "
       "maximum likelihood with errors in the rotations, too. Writes pivot.json, which a point in "
-      "the requirement file of 'hexcal audit' may name, and run.json to DIR/<name>/. Exit status "
-      "4: there is a result, but the poses do not tilt the tool enough to determine the tip.",
+      "the requirement file of 'hexcal audit' may name, and run.json to DIR/<name>/, report.html "
+      "with --report. Exit status 4: there is a result, but the poses do not tilt the tool enough "
+      "to determine the tip.",
       {{"out", true, "DIR", "The results go to DIR/<name>/."},
+       {"report"},
        {"units"},
        {"name", false, {}, "The name of a table's results (default: that of the file)."},
        {"outliers"},
@@ -123,7 +130,7 @@ Command PivotCommand() {
        {"quiet"},
        {"force"}},
       &RunPivot,
-      {{"hexcal pivot examples/pivot/pivoting.yaml --outliers=reject --out=out",
+      {{"hexcal pivot examples/pivot/pivoting.yaml --outliers=reject --report --out=out",
         "The tip of a tool that was tilted about it."}},
   };
 }

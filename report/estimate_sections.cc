@@ -98,8 +98,8 @@ void AddReproduction(const RunRecord& record,
   }
   page->Section("How to reproduce");
   page->Paragraph(fmt::format(
-      "The same build, input and seed give the same {}, which lie beside this report and have "
-      "every number of it.",
+      "The same build, input and seed give the same {} beside this report, with every number of "
+      "it.",
       files));
   if (!record.call.empty()) page->Code(record.call);
   HtmlTable settings = {{{"setting"}, {"value"}}, {}};

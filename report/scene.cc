@@ -12,6 +12,7 @@
 #include "geometry/linear_algebra.h"
 #include "report/chart_parts.h"
 #include "report/html/escape.h"
+#include "report/space_parts.h"
 
 namespace hexcal {
 namespace {
@@ -39,13 +40,6 @@ std::size_t MiddleOf(const Observations& observations) {
   return static_cast<std::size_t>(nearest - observations.items.begin());
 }
 
-// 1, 2 or 5 times a power of ten, not above x.
-double RoundFactor(double x) {
-  if (!(x > 0.0) || !std::isfinite(x)) return 1.0;
-  const double power = std::pow(10.0, std::floor(std::log10(x)));
-  return power * (x >= 5.0 * power ? 5.0 : x >= 2.0 * power ? 2.0 : 1.0);
-}
-
 double SizeOf(const Scene& scene) {
   Points all = {scene.world_from_base.translation,
                 scene.world_from_platform.translation,
@@ -58,37 +52,12 @@ double SizeOf(const Scene& scene) {
   return (high - low).norm();
 }
 
-// Points, or lines with a gap after every `run` points.
-Json Trace(const std::string& name,
-           const char* mode,
-           const Points& points,
-           std::size_t run,
-           const char* colour) {
-  Json x = Json::array(), y = Json::array(), z = Json::array();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    x.push_back(kMilli * points[i].x());
-    y.push_back(kMilli * points[i].y());
-    z.push_back(kMilli * points[i].z());
-    if (run > 0 && (i + 1) % run == 0)
-      for (Json* list : {&x, &y, &z}) list->push_back(Json());
-  }
-  return {{"type", "scatter3d"},
-          {"mode", mode},
-          {"name", name},
-          {"x", x},
-          {"y", y},
-          {"z", z},
-          {"hoverinfo", "name"},
-          {"line", {{"color", colour}, {"width", 4}}},
-          {"marker", {{"color", colour}, {"size", 3}}}};
-}
-
 void AddFrame(const char* name, const Pose3d& world_from_frame, double length, Json* data) {
   constexpr const char* kColours[3] = {"@before", "@good", "@after"};
   for (int k = 0; k < 3; ++k) {
     const Points axis = {world_from_frame.translation,
                          world_from_frame * Eigen::Vector3d(length * Eigen::Vector3d::Unit(k))};
-    Json trace = Trace(name, "lines+text", axis, 0, kColours[k]);
+    Json trace = SpaceTrace(name, "lines+text", axis, 0, kColours[k]);
     trace["text"] = Json::array({k == 0 ? name : "", std::string(1, "xyz"[k])});
     trace["textfont"] = {{"size", 11}};
     trace["showlegend"] = false;
@@ -110,7 +79,7 @@ Json Ellipsoid(const Scene& scene, double factor) {
                                              std::sin(polar) * std::sin(around),
                                              std::cos(polar)));
     }
-  Json trace = Trace(
+  Json trace = SpaceTrace(
       fmt::format("95 % ellipsoid, {} times", factor), "lines", rings, kMeridians + 1, "@floor");
   trace["line"]["width"] = 1;
   return trace;
@@ -238,39 +207,26 @@ Chart SceneChart(const Scene& scene) {
           ends_before.push_back(arrow.from + arrows * arrow.before.value_or(arrow.along));
     labels.push_back(EscapeLabel(arrow.label));
   }
-  if (!legs.empty()) chart.data.push_back(Trace("legs", "lines+markers", legs, 2, "@other"));
+  if (!legs.empty()) chart.data.push_back(SpaceTrace("legs", "lines+markers", legs, 2, "@other"));
   if (!markers.empty()) {
-    Json trace = Trace("markers", "markers", markers, 0, "@ink");
+    Json trace = SpaceTrace("markers", "markers", markers, 0, "@ink");
     trace["text"] = names, trace["hoverinfo"] = "text";
     chart.data.push_back(trace);
   }
-  Json trace = Trace("poses, as predicted", "markers", places, 0, "@after");
+  Json trace = SpaceTrace("poses, as predicted", "markers", places, 0, "@after");
   trace["text"] = labels, trace["hoverinfo"] = "text", trace["marker"]["size"] = 2;
   chart.data.push_back(trace);
   if (has_before)
     chart.data.push_back(
-        Trace(fmt::format("before, {} times", arrows), "lines", ends_before, 2, "@before"));
+        SpaceTrace(fmt::format("before, {} times", arrows), "lines", ends_before, 2, "@before"));
   chart.data.push_back(
-      Trace(fmt::format("{}, {} times", has_before ? "after" : "left over", arrows),
-            "lines",
-            ends,
-            2,
-            has_before ? "@after" : "@before"));
+      SpaceTrace(fmt::format("{}, {} times", has_before ? "after" : "left over", arrows),
+                 "lines",
+                 ends,
+                 2,
+                 has_before ? "@after" : "@before"));
   if (widest > 0.0) chart.data.push_back(Ellipsoid(scene, ellipsoid));
-  const Json axis = {{"title", {{"text", ""}}},
-                     {"gridcolor", "@grid"},
-                     {"zerolinecolor", "@grid"},
-                     {"color", "@muted"}};
-  chart.layout = {{"height", 560},
-                  {"margin", {{"l", 0}, {"r", 0}, {"t", 40}, {"b", 0}}},
-                  {"scene",
-                   {{"aspectmode", "data"},
-                    {"camera",
-                     {{"eye", {{"x", 1.4}, {"y", 1.4}, {"z", 0.9}}},
-                      {"center", {{"x", 0.0}, {"y", 0.0}, {"z", -0.12}}}}},
-                    {"xaxis", axis},
-                    {"yaxis", axis},
-                    {"zaxis", axis}}}};
+  chart.layout = SpaceLayout();
   chart.table = ArrowTable(scene);
   return chart;
 }

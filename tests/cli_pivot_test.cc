@@ -74,6 +74,20 @@ TEST(CliPivot, FindsTheTipOfTheExampleAndThePoseThatSlipped) {
   EXPECT_EQ(record["inputs"].size(), 2u);
 }
 
+TEST(CliPivot, WritesAReportOnlyWhereAskedTo) {
+  const TemporaryFolder folder;
+  const std::string out = "--out=" + folder.Path("");
+  ASSERT_EQ(RunHexcal({{"pivot", kExample + "/pivoting.yaml", out, "--quiet"}}).status, 0);
+  EXPECT_FALSE(std::ifstream(folder.Path("tool-tip/report.html")).good());
+  const ProgramResult run =
+      RunHexcal({{"pivot", kExample + "/pivoting.yaml", out, "--quiet", "--report"}});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const std::string html = folder.Read("tool-tip/report.html");
+  EXPECT_THAT(html, HasSubstr("<!-- hexcal/report/pivot/1 -->"));
+  EXPECT_THAT(html, HasSubstr("<strong>determined</strong>"));
+  EXPECT_THAT(html, HasSubstr("hexcal pivot "));
+}
+
 TEST(CliPivot, TwoRunsWriteTheSameBytesAndJsonIsOneLine) {
   const TemporaryFolder folder;
   const std::vector<std::string> arguments = {

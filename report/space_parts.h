@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace hexcal {
+
+// Pieces of plotly.js charts in space. Points in m are drawn in mm.
+
+// Points, or lines with a gap after every `run` points.
+nlohmann::ordered_json SpaceTrace(const std::string& name,
+                                  const char* mode,
+                                  const std::vector<Eigen::Vector3d>& points,
+                                  std::size_t run,
+                                  const char* colour);
+
+// Seen from above one corner, all axes at one scale.
+nlohmann::ordered_json SpaceLayout();
+
+// By how much what is too small to be seen is enlarged: 1, 2 or 5 times a power of ten, not above
+// x.
+double RoundFactor(double x);
+
+}  // namespace hexcal
