@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <limits>
+#include <memory>
 #include <optional>
 
 #include "apps/calibrate_options.h"
@@ -45,6 +46,7 @@ struct Job {
 struct Outcome {
   std::optional<Estimate> estimate;
   std::optional<Machine> grown;  // of a model with effects
+  std::shared_ptr<const GrownSolution> solution;
   std::string refusal;
   double seconds = 0.0;
 };
@@ -122,6 +124,7 @@ class CalibrateRun {
     GrownCalibration grown = CalibrateGrown(dataset, model_, options_);
     outcome->estimate = std::move(grown.estimate);
     outcome->grown = std::move(grown.machine);
+    outcome->solution = std::move(grown.solution);
   }
 
   Outcome Work(const Dataset& dataset) const {
@@ -156,7 +159,9 @@ class CalibrateRun {
                                                               {"model.yaml", WriteMachine(machine)},
                                                               {"run.json", RunJson(record)}};
     if (FLAGS_report) {
-      const Observations observations = MakeObservations(job->dataset);
+      // With faults of the data mended, where the model knows some.
+      const Observations observations =
+          outcome.solution ? outcome.solution->observations : MakeObservations(job->dataset);
       files.emplace_back("report.html",
                          CalibrateHtml(header,
                                        record,

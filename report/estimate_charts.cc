@@ -68,7 +68,7 @@ Chart ConvergenceChart(const std::vector<IterationRecord>& iterations, const std
   y["type"] = "log";
   Json x = OpenAxis("iteration");
   x["rangemode"] = "nonnegative";
-  x["dtick"] = std::max<std::size_t>(1, iterations.size() / 10);
+  x["dtick"] = std::max<std::size_t>(1, (iterations.size() + 8) / 10);
   chart.layout = {{"height", 340}, {"xaxis", x}, {"yaxis", y}};
   return chart;
 }
