@@ -98,9 +98,9 @@ Chart MapChart(const PointReport& report) {
   Chart chart;
   chart.title = fmt::format("The error of {} over the workspace", report.point.name);
   chart.shows =
-      "the length (mm) that the error does not exceed with 95 %, by the platform's position x, y "
-      "at "
-      "three heights z, each with the worst of the orientations; the colours begin at zero.";
+      "the length (mm) that the error does not exceed with 95 %, by the platform's position x (to "
+      "the right) and y (up, both in mm), at three heights z (mm), each with the worst of the "
+      "orientations; the colours begin at zero.";
   chart.good = "even colours; colours that deepen to one side say where to measure more poses.";
   chart.table = {{{"z, mm", true}, {"y, mm", true}}, {}};
   for (const double x : map.x)
@@ -124,14 +124,16 @@ Chart MapChart(const PointReport& report) {
                           {"xaxis", k == 0 ? "x" : fmt::format("x{}", k + 1)},
                           {"yaxis", k == 0 ? "y" : fmt::format("y{}", k + 1)},
                           {"hovertemplate", "x %{x}, y %{y}: %{z:.4f} mm<extra></extra>"}});
-    chart.layout[AxisKey("xaxis", k + 1)] =
-        OpenAxis(fmt::format("x, mm (z {:.4g})", kMilli * map.z[k]));
+    // Short, for three stand side by side on a narrow screen.
+    Json x = OpenAxis(fmt::format("z {:.4g}", kMilli * map.z[k]));
+    x["nticks"] = 3, x["tickangle"] = 0;
+    chart.layout[AxisKey("xaxis", k + 1)] = x;
     Json y = OpenAxis(k == 0 ? "y, mm" : "");
     if (k > 0) y["showticklabels"] = false;
     chart.layout[AxisKey("yaxis", k + 1)] = y;
   }
   chart.layout["grid"] = {
-      {"rows", 1}, {"columns", heights}, {"pattern", "independent"}, {"xgap", 0.08}};
+      {"rows", 1}, {"columns", heights}, {"pattern", "independent"}, {"xgap", 0.3}};
   chart.layout["height"] = 330;
   Json scale = Json::array();
   scale.push_back(Json::array({0.0, "@middle"}));

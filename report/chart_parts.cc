@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace hexcal {
 
 using Json = nlohmann::ordered_json;
@@ -16,6 +19,23 @@ Json Axis(const std::string& title, bool from_zero) {
 Json OpenAxis(const std::string& title) {
   Json axis = Axis(title, false);
   axis["zeroline"] = false;
+  return axis;
+}
+
+Json LogAxis(const std::string& title, const std::vector<double>& values) {
+  constexpr double kManyDecades = 1.5;
+  double low = 0.0, high = 0.0;  // of those above zero
+  for (const double value : values) {
+    if (!(value > 0.0)) continue;
+    low = low > 0.0 ? std::min(low, value) : value;
+    high = std::max(high, value);
+  }
+  Json axis = OpenAxis(title);
+  axis["type"] = "log";
+  if (low > 0.0 && std::log10(high / low) > kManyDecades)
+    axis["dtick"] = 1;  // powers of ten
+  else
+    axis["dtick"] = "D2";  // 1, 2 and 5 times these
   return axis;
 }
 

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace hexcal {
 
@@ -13,6 +14,9 @@ nlohmann::ordered_json Axis(const std::string& title, bool from_zero);
 
 // One without a line at zero, for lengths and counts.
 nlohmann::ordered_json OpenAxis(const std::string& title);
+
+// A logarithmic one for these values, with marks that do not crowd each other.
+nlohmann::ordered_json LogAxis(const std::string& title, const std::vector<double>& values);
 
 // "xaxis" of the first panel, "xaxis2" of the second...
 std::string AxisKey(const std::string& axis, int panel);

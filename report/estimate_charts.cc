@@ -64,12 +64,13 @@ Chart ConvergenceChart(const std::vector<IterationRecord>& iterations, const std
   };
   chart.data = Json::array({line("position, mm", position, "@after"),
                             line("orientation, mrad", orientation, "@before")});
-  Json y = OpenAxis("RMS");
-  y["type"] = "log";
+  std::vector<double> all;
+  for (const IterationRecord& i : iterations)
+    all.push_back(kMilli * i.rmspe), all.push_back(kMilli * i.rmsoe);
   Json x = OpenAxis("iteration");
   x["rangemode"] = "nonnegative";
   x["dtick"] = std::max<std::size_t>(1, (iterations.size() + 8) / 10);
-  chart.layout = {{"height", 340}, {"xaxis", x}, {"yaxis", y}};
+  chart.layout = {{"height", 340}, {"xaxis", x}, {"yaxis", LogAxis("RMS", all)}};
   return chart;
 }
 

@@ -149,12 +149,12 @@ Chart PivotSigmasChart(const PivotResult& result) {
   chart.good = "one dot in twenty above the line, none far above it but what was left out.";
   AddDots(
       result, 1, [](const PivotRow& row) { return row.squared_sigmas; }, &chart);
-  Json y = OpenAxis("squared sigmas");
-  y["type"] = "log";  // what was left out may be far off
+  std::vector<double> all;  // what was left out may be far off
+  for (const PivotRow& row : result.rows) all.push_back(row.squared_sigmas);
   chart.layout = {{"height", 500},
                   {"shapes", Json::array({Level("95 %", ChiSquareQuantile(0.95, 3.0), "@floor")})},
                   {"xaxis", OpenAxis("order of reading")},
-                  {"yaxis", y}};
+                  {"yaxis", LogAxis("squared sigmas", all)}};
   chart.table = {{{"reading"}, {"squared sigmas", true}, {""}}, {}};
   for (std::size_t i = 0; i < result.rows.size(); i += StrideOf(result.rows.size()))
     chart.table.rows.push_back({result.rows[i].label,

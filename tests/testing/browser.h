@@ -19,6 +19,15 @@ class Browser {
   // What has become of the page after its scripts have run, as HTML.
   std::string Dom(const std::string& html) { return Open(html, {"--dump-dom"}); }
 
+  // The page in a frame so many px wide (a window cannot be as narrow as a telephone), with this
+  // script beside it, which may look into the frame with the id "framed".
+  std::string FramedDom(const std::string& html, int width, const std::string& script) {
+    folder_.Write("framed.html", html);
+    return Open("<iframe id=\"framed\" src=\"framed.html\" height=\"900\" width=\"" +
+                    std::to_string(width) + "\"></iframe>\n<script>" + script + "</script>",
+                {"--allow-file-access-from-files", "--dump-dom"});
+  }
+
   // The page on paper: the bytes of a PDF.
   std::string Pdf(const std::string& html) {
     Open(html, {"--print-to-pdf=" + folder_.Path("page.pdf"), "--no-pdf-header-footer"});
