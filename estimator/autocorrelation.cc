@@ -1,19 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/autocorrelation.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace hexcal {
+namespace {
+
+double Product(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  double sum = 0.0;
+  for (Eigen::Index k = 0; k < a.size(); ++k)
+    if (std::isfinite(a[k]) && std::isfinite(b[k])) sum += a[k] * b[k];
+  return sum;
+}
+
+}  // namespace
 
 Autocorrelation FindAutocorrelation(const std::vector<Eigen::VectorXd>& rows,
                                     std::size_t most_lags) {
-  std::vector<Eigen::VectorXd> known;  // what is missing as a zero, which adds nothing
   double squares = 0.0;
   Eigen::Index count = 0;
   for (const Eigen::VectorXd& row : rows) {
-    known.push_back(row.unaryExpr([](double x) { return std::isfinite(x) ? x : 0.0; }));
-    squares += known.back().squaredNorm();
+    squares += Product(row, row);
     count += row.array().isFinite().count();
   }
   Autocorrelation found;
@@ -21,7 +28,7 @@ Autocorrelation FindAutocorrelation(const std::vector<Eigen::VectorXd>& rows,
   found.band = 2.0 / std::sqrt(static_cast<double>(count));
   for (std::size_t lag = 1; lag <= most_lags && lag < rows.size(); ++lag) {
     double products = 0.0;
-    for (std::size_t i = 0; i + lag < rows.size(); ++i) products += known[i].dot(known[i + lag]);
+    for (std::size_t i = 0; i + lag < rows.size(); ++i) products += Product(rows[i], rows[i + lag]);
     found.of_lag.push_back(products / squares);
   }
   return found;

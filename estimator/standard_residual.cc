@@ -51,25 +51,26 @@ std::vector<Vector6d> StandardResiduals(const Observations& observations,
   CHECK_EQ(estimate.poses.size(), observations.items.size());
   if (!(estimate.noise.position > 0.0) || !(estimate.noise.orientation > 0.0)) return {};
   const NoiseLevels levels = LevelsOfTool(observations, estimate);
-  std::vector<Matrix6d> whiteners;
-  std::vector<Matrix6x12d> jacobians;
+  const auto whitener_of = [&](const Observation& o) {
+    return WhitenerOf(ErrorCovariance(o, observations, estimate.mounts.platform_from_tool, levels));
+  };
   Matrix12d normal = Matrix12d::Zero();
   for (std::size_t i = 0; i < estimate.poses.size(); ++i) {
+    if (!(estimate.poses[i].weight > 0.0)) continue;
     const Observation& o = observations.items[i];
-    whiteners.push_back(
-        WhitenerOf(ErrorCovariance(o, observations, estimate.mounts.platform_from_tool, levels)));
-    jacobians.push_back(Linearise(o, estimate.mounts).jacobian);
-    const Matrix6x12d white = whiteners.back() * jacobians.back();
-    if (estimate.poses[i].weight > 0.0) normal += white.transpose() * white;
+    const Matrix6x12d white = whitener_of(o) * Linearise(o, estimate.mounts).jacobian;
+    normal += white.transpose() * white;
   }
   const Matrix12d covariance = InverseOfNormal(normal);
-  std::vector<Vector6d> standard;
-  for (std::size_t i = 0; i < estimate.poses.size(); ++i)
-    standard.push_back(estimate.poses[i].weight > 0.0
-                           ? Standard(estimate.poses[i].residual,
-                                      whiteners[i],
-                                      jacobians[i] * covariance * jacobians[i].transpose())
-                           : Vector6d(Vector6d::Constant(kNaN)));
+  // Computed again rather than kept: of a million poses they would take a gigabyte.
+  std::vector<Vector6d> standard(estimate.poses.size(), Vector6d::Constant(kNaN));
+  for (std::size_t i = 0; i < estimate.poses.size(); ++i) {
+    if (!(estimate.poses[i].weight > 0.0)) continue;
+    const Observation& o = observations.items[i];
+    const Matrix6x12d jacobian = Linearise(o, estimate.mounts).jacobian;
+    standard[i] = Standard(
+        estimate.poses[i].residual, whitener_of(o), jacobian * covariance * jacobian.transpose());
+  }
   return standard;
 }
 
