@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <optional>
+#include <utility>
 
 #include "apps/dataset_files.h"
 #include "apps/exit_status.h"
@@ -14,7 +16,9 @@
 #include "apps/output_folder.h"
 #include "apps/record_of.h"
 #include "apps/stage_bars.h"
+#include "apps/usage_error.h"
 #include "discovery/discover.h"
+#include "model/machine.h"
 #include "report/discovery_html.h"
 #include "report/discovery_json.h"
 #include "report/discovery_table.h"
@@ -39,12 +43,26 @@ ResultHeader HeaderOfModel(const Dataset& dataset) {
 
 std::vector<Effect> EffectsOf(const Discovery& discovery) {
   std::vector<Effect> effects;
+  for (const GivenEffect& given : discovery.given) effects.push_back(given.now.effect);
   for (const DiscoveredEffect& found : discovery.effects) effects.push_back(found.effect);
   return effects;
 }
 
+// What to start from; nothing without a --model, or where that has no effects.
+std::optional<Machine> OpenModel() {
+  if (FLAGS_model.empty()) return std::nullopt;
+  Machine model = ReadMachine(FLAGS_model);
+  if (model.pose_map)
+    throw UsageError(
+        "--model: discover starts from effects, and a pose map is none; it finds the map anew "
+        "from a model without it");
+  if (model.effects.empty()) return std::nullopt;
+  return model;
+}
+
 int RunDiscover(const std::vector<std::string>& files) {
   const auto start = std::chrono::steady_clock::now();
+  std::optional<Machine> model = OpenModel();
   const Dataset dataset = OpenDataset(files[0], true);
   OutputFolder folder(FLAGS_out,
                       dataset.name,
@@ -53,14 +71,16 @@ int RunDiscover(const std::vector<std::string>& files) {
                        {"model.yaml", std::string(kModelMark)},
                        {"run.json", std::string(kRunMark)},
                        {"report.html", HtmlPage::AnyMark()}},
-                      InputFiles(dataset, ""),
+                      InputFiles(dataset, FLAGS_model),
                       FLAGS_force);
   CheckHistoryFlag();
-  const DiscoverOptions options = DiscoverOptionsFromFlags();
+  DiscoverOptions options = DiscoverOptionsFromFlags();
+  options.model = std::move(model);
   const Discovery discovery = DiscoverWithBars(dataset, options);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunRecord record = RecordOf("discover", dataset, seconds, options.threads);
+  record.inputs = InputFiles(dataset, FLAGS_model);
   const std::vector<Effect> effects = EffectsOf(discovery);
   const std::string result = ResultJson(HeaderOfModel(dataset), discovery.estimate, effects);
   HistoryEntry entry(
@@ -120,6 +140,10 @@ Command DiscoverCommand() {
       {{"out", true, "DIR", "The results go to DIR/<name>/."},
        {"history"},
        {"operator"},
+       {"model",
+        false,
+        {},
+        "A model to start from: its effects are fitted along, and what is beyond them is sought."},
        {"alpha"},
        {"bootstraps"},
        {"noise_position"},

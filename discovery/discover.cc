@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "discovery/discover.h"
 
+#include <glog/logging.h>
+
 #include <algorithm>
+#include <utility>
 
 #include "discovery/findings.h"
+#include "discovery/given.h"
 #include "discovery/investigation.h"
 #include "discovery/swapped_markers.h"
 #include "estimator/calibrate.h"
@@ -13,6 +17,9 @@
 
 namespace hexcal {
 namespace {
+
+// Priors on given effects: of their own size, as calibrate --model has them.
+constexpr double kGivenWidth = 3.0;
 
 class Discoverer {
  public:
@@ -31,7 +38,11 @@ class Discoverer {
     work_.library = MakeFormLibrary(work_.dataset, work_.data.visits, work_.data.rows);
     for (const auto& [name, needs] : work_.library.not_testable)
       result_.not_testable.push_back({name, needs});
-    work_.problem = MakeGapProblem(work_.data, MountsOf(result_.base_and_tool), {}, work_.library);
+    start_ = MountsOf(result_.base_and_tool);
+    if (work_.given.empty())
+      work_.problem = MakeGapProblem(work_.data, start_, {}, work_.library);
+    else
+      StartFromModel();
     SelectEffects();
     CompareWithGeometry();
     Grow();
@@ -48,8 +59,30 @@ class Discoverer {
     if (work_.options.progress) work_.options.progress(stage, done, of);
   }
 
+  // What a model says of the data is taken as it is.
+  void TakeModel(const Machine& model) {
+    RequireDriversOf(model, work_.dataset);
+    work_.given = FittedEffects(model);
+    work_.given_faults = FaultsOf(model);
+    work_.reported = ReportedPoses(work_.dataset, model);
+    work_.robot_is_mended =
+        std::any_of(work_.given_faults.begin(), work_.given_faults.end(), [](const Effect& fault) {
+          return fault.name != "swapped_markers";  // mended already, and not the robot's
+        });
+  }
+
+  void StartFromModel() {
+    Report("the given model", 0, 1);
+    GivenFit fit = FitGiven(work_.data, start_, work_.given, work_.library);
+    start_ = fit.mounts;
+    given_now_ = std::move(fit.effects);
+    work_.problem = std::move(fit.problem);
+  }
+
   void MendFaults() {
     Report("faults of the data", 0, 1);
+    if (work_.options.model) TakeModel(*work_.options.model);
+    if (work_.robot_is_mended) return;
     work_.reported = ReportedPoses(work_.dataset);
     if (const std::optional<FaultFound> fault = FindFault(work_.dataset, work_.observations)) {
       Machine machine;
@@ -95,7 +128,7 @@ class Discoverer {
 
   // A map of the pose has to foretell poses better than legs that nobody published.
   void CompareWithGeometry() {
-    if (work_.selection.chosen.empty() || work_.data.hexapod) return;
+    if (work_.selection.chosen.empty() || work_.data.hexapod || !work_.given.empty()) return;
     Report("leg geometry", 0, 1);
     work_.geometry = FindUnknownGeometry(work_.data,
                                          MountsOf(result_.base_and_tool),
@@ -140,26 +173,30 @@ class Discoverer {
 
   void GrowForms() {
     // What the data determine badly is held to the size that they make likely.
-    const double width =
+    double width =
         work_.selection.chosen.empty()
             ? kWidePrior
             : Scorer(work_.problem.linear.Only(work_.selection.chosen), work_.selection.noise)
                   .LikeliestWidth(0);
+    width = std::max(width, kGivenWidth * LargestSize(given_now_));
     const JointFit fit = FitJointly(work_.problem.linear,
                                     work_.selection.noise,
                                     work_.selection.chosen,
                                     width,
                                     Eigen::VectorXd());
-    std::vector<Effect> effects;
+    std::vector<Effect> effects = given_now_;
     Eigen::Index at = 0;
     for (const int form : work_.selection.chosen) {
       const FormDefinition& definition = work_.library.forms[form];
       effects.push_back(EffectOf(definition, fit.coefficients.segment(at, definition.size())));
       at += definition.size();
     }
-    Mounts start = MountsOf(result_.base_and_tool);
-    start.world_from_base = Plus(start.world_from_base, Vector6d(fit.mounts.head<6>()));
-    start.platform_from_tool = Plus(start.platform_from_tool, Vector6d(fit.mounts.segment<6>(6)));
+    Mounts start = start_;
+    // Given effects may trade with the mounts: both stay where they are.
+    if (given_now_.empty()) {
+      start.world_from_base = Plus(start.world_from_base, Vector6d(fit.mounts.head<6>()));
+      start.platform_from_tool = Plus(start.platform_from_tool, Vector6d(fit.mounts.segment<6>(6)));
+    }
     // Where nothing was found base and tool stay as they were.
     if (effects.empty())
       work_.refit = Unchanged();
@@ -189,6 +226,7 @@ class Discoverer {
       machine.hexapod->home = HomePose(&*machine.hexapod, work_.reported);
     if (work_.observations.tracker_from_world)
       machine.world_from_tracker = work_.observations.tracker_from_world->Inverse();
+    machine.effects = work_.given_faults;
     for (const FaultFound& fault : work_.faults) machine.effects.push_back(fault.effect);
     for (const Effect& effect : work_.refit.effects) {
       if (IsPoseMap(effect))
@@ -230,17 +268,29 @@ class Discoverer {
 
   Investigation work_;
   Discovery result_;
+  Mounts start_;                   // where the linear problem is
+  std::vector<Effect> given_now_;  // and the effects of a model
 };
 
 }  // namespace
 
-Discovery Discover(const Dataset& dataset, const DiscoverOptions& options) {
+namespace {
+
+Discovery DiscoverIn(const Dataset& dataset, const DiscoverOptions& options) {
   const std::vector<FaultFound> swaps = FindSwappedMarkers(dataset);
   if (swaps.empty()) return Discoverer(dataset, {}, options).Run();
   Dataset mended = dataset;
   for (const FaultFound& swap : swaps)
     mended.measurement = MendedMeasurement(*mended.measurement, {swap.effect});
   return Discoverer(mended, swaps, options).Run();
+}
+
+}  // namespace
+
+Discovery Discover(const Dataset& dataset, const DiscoverOptions& options) {
+  if (!options.model) return DiscoverIn(dataset, options);
+  CHECK(!options.model->pose_map) << "a model with a pose map";
+  return DiscoverIn(AsSeenBy(*options.model, dataset), options);
 }
 
 }  // namespace hexcal

@@ -7,6 +7,7 @@
 
 #include "discovery/discovery.h"
 #include "measurement/dataset.h"
+#include "model/machine.h"
 
 namespace hexcal {
 
@@ -18,6 +19,9 @@ struct DiscoverOptions {
   std::optional<NoiseLevels> noise = {};  // in place of one that is not stated
   std::uint64_t seed = 1;
   int threads = 1;
+  // To start from: its effects are fitted along with base and tool, what is beyond them is sought.
+  // No pose map.
+  std::optional<Machine> model = {};
   // Called with what is done and how much there is to do, and the name of the stage.
   std::function<void(const char* stage, int done, int of)> progress;
 };

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "discovery/given_state.h"
 #include "estimator/estimate.h"
 #include "model/effect.h"
 #include "model/machine.h"
@@ -133,12 +134,20 @@ constexpr std::string_view NameOf(Verdict verdict) {
                                           : "partly explained";
 }
 
+// An effect of the model that discovery was started from.
+struct GivenEffect {
+  DiscoveredEffect now;  // as these data tell it; of its statistics nothing
+  std::optional<GivenJudgement>
+      judgement;  // nothing of a fault of the data, which is taken as it is
+};
+
 struct Discovery {
   Verdict verdict = Verdict::kAgrees;
   std::vector<NotTestable> not_testable;
   std::vector<Detectable> detectable;
   Gap gap;
-  std::vector<DiscoveredEffect> effects;
+  std::vector<GivenEffect> given;             // with a model: its effects
+  std::vector<DiscoveredEffect> effects;      // found
   std::optional<GeometryClass> leg_geometry;  // where a gap follows the pose and no leg is known
   std::vector<Step> steps;
   Where where;

@@ -7,6 +7,7 @@
 
 #include "discovery/answers.h"
 #include "discovery/geometry_words.h"
+#include "discovery/given.h"
 #include "discovery/rivals.h"
 #include "discovery/where.h"
 #include "estimator/quantiles.h"
@@ -28,6 +29,7 @@ class Findings {
     FillSteps();
     FillGap();
     AddGeometryStep();
+    FillGiven();
     FillEffects();
     std::vector<std::string> labels;
     for (const int row : work_.data.rows)
@@ -85,7 +87,7 @@ class Findings {
   }
 
   int ParametersOf(const std::vector<int>& forms) const {
-    int count = 12;
+    int count = static_cast<int>(work_.problem.linear.nuisance.cols());
     for (const int f : forms) count += work_.problem.linear.forms[f].size;
     return count;
   }
@@ -98,7 +100,8 @@ class Findings {
   void FillGap() {
     const JointFit alone =
         FitJointly(work_.problem.linear, work_.selection.noise, {}, kWidePrior, Eigen::VectorXd());
-    result_->gap.before = SizeOf(work_.problem.linear, work_.selection.noise, alone.left, 12);
+    result_->gap.before =
+        SizeOf(work_.problem.linear, work_.selection.noise, alone.left, ParametersOf({}));
     result_->gap.after = SizeOf(
         work_.problem.linear,
         work_.selection.noise,
@@ -134,6 +137,14 @@ class Findings {
     return before > floor ? (before - square(after)) / (before - floor) : 0.0;
   }
 
+  void FillGiven() {
+    for (const Effect& fault : work_.given_faults)
+      result_->given.push_back({AnswerFor(fault, work_.dataset), std::nullopt});
+    const auto judgements = JudgeGiven(work_.refit, work_.given, work_.options.alpha);
+    for (std::size_t e = 0; e < work_.given.size(); ++e)
+      result_->given.push_back({AnswerFor(work_.refit.effects[e], work_.dataset), judgements[e]});
+  }
+
   void FillEffects() {
     for (const FaultFound& fault : work_.faults) {
       DiscoveredEffect found = AnswerFor(fault.effect, work_.dataset);
@@ -144,7 +155,7 @@ class Findings {
     const bool kind_poses = work_.dataset.measurement->kind == Measurement::Kind::kPoses;
     const std::vector<std::vector<Rival>> rivals =
         RivalsOf(work_.problem.linear, work_.selection.noise, work_.selection.chosen, kind_poses);
-    std::size_t refitted = 0;
+    std::size_t refitted = work_.given.size();
     bool is_class_there = false;
     for (std::size_t k = 0; k < work_.selection.chosen.size(); ++k) {
       const int form = work_.selection.chosen[k];
@@ -238,7 +249,7 @@ class Findings {
   Verdict VerdictOf() const {
     const bool none = result_->effects.empty();
     if (none) {
-      const Estimate& alone = result_->base_and_tool;
+      const Estimate& alone = work_.given.empty() ? result_->base_and_tool : result_->estimate;
       // Heavy tails and a robot that does not repeat are noise, and are said to be.
       const bool is_stated = !alone.noise.estimated;
       const bool has_gap = is_stated && result_->noise.scale > kMuchMore &&

@@ -26,9 +26,11 @@ struct Investigation {
   std::vector<Pose3d> reported = {};  // base_from_platform of every row, mended
   std::vector<FaultFound> faults = {};
   bool robot_is_mended = false;
+  std::vector<Effect> given = {};  // effects of the model that it starts from, as that has them
+  std::vector<Effect> given_faults = {};
   GapData data = {};
   FormLibrary library = {};
-  GapProblem problem = {};  // of base and tool alone
+  GapProblem problem = {};  // of base and tool, and what was given, alone
   Selection selection = {};
   HeldOut held = {};
   std::optional<UnknownGeometry> geometry = {};

@@ -68,7 +68,8 @@ double ScaleOf(const Effect& effect, int number) {
   return scale > 0.0 ? scale : std::abs(effect.parameters[number]);
 }
 
-// The effects' free parameters as forms, at their present values.
+}  // namespace
+
 FormLibrary FreeForms(const std::vector<Effect>& effects) {
   FormLibrary library;
   for (std::size_t e = 0; e < effects.size(); ++e) {
@@ -88,6 +89,8 @@ FormLibrary FreeForms(const std::vector<Effect>& effects) {
   }
   return library;
 }
+
+namespace {
 
 Eigen::VectorXd PriorMean(const FormLibrary& library) {
   std::vector<double> mean;
@@ -257,11 +260,11 @@ bool StartSecondHarmonic(
 
 }  // namespace
 
-Refit RefitMachine(const GapData& data,
-                   const Mounts& start,
-                   const std::vector<Effect>& effects,
-                   const GapNoise& noise,
-                   double prior_width) {
+Refit RefitAsSeen(const GapData& data,
+                  const Mounts& start,
+                  const std::vector<Effect>& effects,
+                  const GapNoise& noise,
+                  double prior_width) {
   Refit refit;
   refit.mounts = start;
   refit.effects = effects;
@@ -272,6 +275,15 @@ Refit RefitMachine(const GapData& data,
     if (effects[e].name == "leg_periodic")
       more = StartSecondHarmonic(data, noise, refit, e, &refit.effects[e]) || more;
   if (more) refitter.Run(&refit);
+  return refit;
+}
+
+Refit RefitMachine(const GapData& data,
+                   const Mounts& start,
+                   const std::vector<Effect>& effects,
+                   const GapNoise& noise,
+                   double prior_width) {
+  Refit refit = RefitAsSeen(data, start, effects, noise, prior_width);
   CorrectCommonWorld(data, FreeForms(refit.effects), &refit);
   return refit;
 }

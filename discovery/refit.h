@@ -30,4 +30,15 @@ Refit RefitMachine(const GapData& data,
                    const GapNoise& noise,
                    double prior_width);
 
+// The same in the frame that the tracker took for the world (common_world.h), from which a fit goes
+// on.
+Refit RefitAsSeen(const GapData& data,
+                  const Mounts& start,
+                  const std::vector<Effect>& effects,
+                  const GapNoise& noise,
+                  double prior_width);
+
+// The effects' free parameters as forms, at their present values: a form an effect.
+FormLibrary FreeForms(const std::vector<Effect>& effects);
+
 }  // namespace hexcal

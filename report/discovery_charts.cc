@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "report/chart_parts.h"
+#include "report/discovery_given.h"
 #include "report/discovery_words.h"
 #include "report/effect_numbers.h"
 #include "report/html/escape.h"
@@ -30,7 +31,7 @@ struct Part {
 constexpr Part kPosition = {"Position", "mm", &GapSize::rms_position};
 constexpr Part kOrientation = {"Orientation", "mrad", &GapSize::rms_orientation};
 
-Chart GapChart(const Gap& gap, const Part& part) {
+Chart GapChart(const Gap& gap, const std::string& start, const Part& part) {
   const auto value = [&](const GapSize& size) {
     return IsKnown(size) ? Json(kMilli * size.*part.size) : Json();
   };
@@ -39,14 +40,14 @@ Chart GapChart(const Gap& gap, const Part& part) {
   Chart chart;
   chart.title = fmt::format("{}: the gap before and after", part.title);
   chart.shows = fmt::format(
-      "the RMS difference between prediction and measurement ({}), with base and tool alone and "
-      "with what was found, on the data and on poses that neither fit nor search had seen; the "
-      "line "
-      "is what noise alone leaves.",
-      part.unit);
+      "the RMS difference between prediction and measurement ({}), with {} and with what was "
+      "found, on the data and on poses that neither fit nor search had seen; the line is what "
+      "noise alone leaves.",
+      part.unit,
+      start);
   chart.good = "both blue bars at the line, the held-out one not much above the other.";
   chart.data = Json::array({{{"type", "bar"},
-                             {"name", "base and tool alone"},
+                             {"name", start},
                              {"x", groups},
                              {"y", Json::array({value(gap.before), value(gap.heldout_before)})},
                              {"marker", {{"color", "@before"}}}},
@@ -75,12 +76,13 @@ Chart GapChart(const Gap& gap, const Part& part) {
 
 }  // namespace
 
-std::vector<Chart> GapCharts(const Gap& gap) {
-  return {GapChart(gap, kPosition), GapChart(gap, kOrientation)};
+std::vector<Chart> GapCharts(const Discovery& discovery) {
+  const std::string start = StartOf(discovery);
+  return {GapChart(discovery.gap, start, kPosition), GapChart(discovery.gap, start, kOrientation)};
 }
 
 Chart StepChart(const Discovery& discovery) {
-  Json names = Json::array({"base and tool"});
+  Json names = Json::array({discovery.given.empty() ? "base and tool" : "given"});
   Json sizes = Json::array({kMilli * discovery.gap.before.rms_position});
   Chart chart;
   chart.title = "The gap, step by step";
@@ -102,7 +104,7 @@ Chart StepChart(const Discovery& discovery) {
                                     fmt::format("{:.1f}", size.chi_square),
                                     fmt::format("{}", size.degrees_of_freedom)});
       };
-  row(0, "base and tool alone", "", discovery.gap.before);
+  row(0, StartOf(discovery), "", discovery.gap.before);
   std::size_t number = 0;
   for (const Step& step : discovery.steps) {
     ++number;

@@ -12,7 +12,7 @@ namespace hexcal {
 
 // Position, then orientation: the gap before and after on the data and on held-out poses, and the
 // noise floor.
-std::vector<Chart> GapCharts(const Gap& gap);
+std::vector<Chart> GapCharts(const Discovery& discovery);
 
 // The gap on the data after each step.
 Chart StepChart(const Discovery& discovery);

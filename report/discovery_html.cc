@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "report/discovery_charts.h"
+#include "report/discovery_given.h"
 #include "report/discovery_words.h"
 #include "report/effect_numbers.h"
 #include "report/estimate_charts.h"
@@ -77,14 +78,16 @@ void AddFound(const DiscoveredEffect& found, std::size_t number, HtmlPage* page)
 
 void AddEffects(const Discovery& discovery, HtmlPage* page) {
   page->Section("What was found");
-  if (discovery.effects.empty()) page->Paragraph("No effect was added to base and tool.");
+  if (discovery.effects.empty())
+    page->Paragraph(fmt::format("No effect was added to {}.",
+                                discovery.given.empty() ? "base and tool" : StartOf(discovery)));
   for (std::size_t i = 0; i < discovery.effects.size(); ++i)
     AddFound(discovery.effects[i], i + 1, page);
 }
 
 void AddGap(const Discovery& discovery, HtmlPage* page) {
   page->Section("The gap, before and after");
-  page->Figures(GapCharts(discovery.gap));
+  page->Figures(GapCharts(discovery));
   HtmlTable table = {{{""},
                       {"RMS position, mm", true},
                       {"RMS orientation, mrad", true},
@@ -160,8 +163,9 @@ TitledTable WhereTable(const char* title, std::vector<WhereItem> items) {
   return {title, table};
 }
 
-void AddWhere(const Where& where, HtmlPage* page) {
-  page->Section("Where base and tool alone disagree");
+void AddWhere(const Where& where, const std::string& start, HtmlPage* page) {
+  page->Section("Where the disagreement is");
+  page->Paragraph(fmt::format("Of prediction and measurement with {}.", start));
   page->Note(
       "p: the probability of as much by chance, corrected for the length of its list. Share: of "
       "the disagreement beyond noise that it holds; shares overlap. The smallest p first.");
@@ -223,11 +227,12 @@ std::string DiscoveryHtml(const std::string& dataset,
                             "in the model, and how the gap shrinks",
                             discovery.poses.size()));
   AddVerdict(discovery, &page);
+  AddGiven(discovery, &page);
   AddEffects(discovery, &page);
   AddGap(discovery, &page);
   AddResiduals(scene, residuals, &page);
   AddSteps(discovery, &page);
-  AddWhere(discovery.where, &page);
+  AddWhere(discovery.where, StartOf(discovery), &page);
   AddNoise(discovery, &page);
   AddLimits(discovery, &page);
   AddMounts(discovery.estimate, &page);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/discovery_json.h"
 
+#include "report/discovery_given.h"
 #include "report/effect_json.h"
 #include "report/json_parts.h"
 #include "report/json_text.h"
@@ -142,6 +143,7 @@ Json DiscoveryObject(const std::string& dataset,
                 {"unit", effect.unit}};
   });
   object["gap"] = GapObject(discovery.gap);
+  if (!discovery.given.empty()) object["given"] = JsonGiven(discovery);
   object["effects"] = ListOf(discovery.effects, FoundEffect);
   if (discovery.leg_geometry) object["leg_geometry"] = GeometryObject(*discovery.leg_geometry);
   object["steps"] = ListOf(discovery.steps, StepObject);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "report/discovery_given.h"
 #include "report/discovery_words.h"
 #include "report/quantity.h"
 
@@ -90,6 +91,10 @@ std::string DiscoveryTable(const std::string& dataset, const Discovery& discover
   std::string text = fmt::format(
       "{}: {} poses, {}\n\n", dataset, discovery.poses.size(), NameOf(discovery.verdict));
   text += Paragraph("verdict", VerdictSentence(discovery));
+  for (const GivenEffect& given : discovery.given)
+    text += Paragraph(
+        "given",
+        fmt::format("{}, {}: {}", given.now.effect.name, CarriersOf(given.now), SentenceOf(given)));
   for (std::size_t i = 0; i < discovery.effects.size(); ++i)
     text += "\n" + Found(discovery.effects[i], i + 1);
   text += "\n" + GapTable(discovery.gap) + "\n";

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "report/discovery_given.h"
 #include "report/effect_numbers.h"
 #include "report/quantity.h"
 
@@ -30,7 +31,8 @@ std::string NamesOf(const Discovery& discovery) {
 std::string VerdictSentence(const Discovery& discovery) {
   switch (discovery.verdict) {
     case Verdict::kAgrees:
-      return "Prediction and measurement agree: base and tool alone leave nothing but noise.";
+      return fmt::format("Prediction and measurement agree: {} leave nothing but noise.",
+                         StartOf(discovery));
     case Verdict::kExplained:
       return fmt::format("The gap between prediction and measurement is explained by {}.",
                          NamesOf(discovery));
@@ -54,8 +56,8 @@ std::string VerdictMeaning(Verdict verdict) {
       return "With what was added, the model predicts poses that it has not seen about as well as "
              "the noise allows.";
     case Verdict::kPartlyExplained:
-      return "The grown model predicts better than base and tool alone, but not as well as the "
-             "noise would allow.";
+      return "The grown model predicts better than before, but not as well as the noise would "
+             "allow.";
     case Verdict::kUndecided:
       break;
   }

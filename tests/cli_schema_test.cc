@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -157,9 +159,34 @@ TEST(CliSchema, HoldsForWhatDiscoverPlanAndSimulateWrite) {
   EXPECT_EQ(Call({"plan", hidden, model, "--for=rivals", "--out=c.json"}, folder).status, 0);
   EXPECT_EQ(Call({"simulate", hidden, model, "--out=d"}, folder).status, 0);
   EXPECT_EQ(Call({"calibrate", hidden, model, "--out=e"}, folder).status, 0);
-  EXPECT_EQ(Call({"audit", hidden, model, "--draws=1000", "--folds=2", "--out=f"}, folder).status,
+  ExpectValid(folder, {"dataset", "discovery", "model", "plan", "result", "run"});
+}
+
+TEST(CliSchema, HoldsForWhatAModelWithEffectsLeadsTo) {
+  const TemporaryFolder folder;
+  std::ostringstream truth;
+  truth << std::ifstream(kExamples + "/neurobot/truth.yaml").rdbuf()
+        << "effects: [{name: tracker_scale, parameters: {scale: 0.001}}]\n";
+  folder.Write("m.yaml", truth.str());
+  const std::string model = "--model=m.yaml", dataset = "a/neurobot/dataset.yaml";
+  EXPECT_EQ(Call({"simulate", kNeurobot, model, "--out=a"}, folder).status, 0);
+  EXPECT_EQ(Call({"audit", dataset, model, "--draws=1000", "--folds=2", "--out=b"}, folder).status,
             0);
-  ExpectValid(folder, {"audit", "dataset", "discovery", "model", "plan", "result", "run"});
+  const ProgramResult found =
+      Call({"discover", dataset, model, "--bootstraps=99", "--alpha=0.05", "--folds=2", "--out=c"},
+           folder);
+  EXPECT_EQ(found.status, 0) << found.err;
+  EXPECT_THAT(found.out, HasSubstr("given          tracker_scale"));
+  EXPECT_THAT(folder.Read("c/neurobot/report.html"), HasSubstr("What was given"));
+  ExpectValid(folder, {"audit", "dataset", "discovery", "model", "result", "run"});
+  std::string map =
+      "pose_map:\n  degree: 1\n  reference: {xyz: [0, 0, 0.2], quaternion: [1, 0, 0, 0]}\n"
+      "  box: {centre: [0, 0, 0, 0, 0, 0], half_width: [1, 1, 1, 1, 1, 1]}\n  coefficients:\n";
+  for (int k = 0; k < 6; ++k) map += "    - [0, 0, 0, 0, 0, 0, 0]\n";
+  folder.Write("map.yaml", truth.str() + map);
+  const ProgramResult refused = Call({"discover", dataset, "--model=map.yaml", "--out=d"}, folder);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("a pose map is none"));
 }
 
 TEST(CliSchema, HoldsForWhatPivotWrites) {
