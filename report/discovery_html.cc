@@ -127,7 +127,7 @@ void AddConvergence(const Discovery& discovery, HtmlPage* page) {
   std::vector<Chart> charts = {
       ConvergenceChart(discovery.base_and_tool.iterations, "fit of base and tool alone")};
   if (discovery.refit.size() > 0)
-    charts.push_back(ConvergenceChart(discovery.refit, "fit of base, tool and what was found"));
+    charts.push_back(ConvergenceChart(discovery.refit, "fit of base, tool and effects"));
   page->Figures(charts);
 }
 

@@ -21,7 +21,7 @@ struct PoseResiduals {
   std::vector<std::string> labels;
   std::vector<double> times;  // s; empty where none were recorded
   State after;
-  std::optional<State> before;        // with base and tool alone, where effects were found since
+  std::optional<State> before;        // with what discover started from, where it found effects
   std::vector<Vector6d> leg_lengths;  // of the reported poses, m; empty where no legs are known
 };
 

@@ -21,7 +21,7 @@ struct Scene {
   struct Arrow {
     std::string label;
     Eigen::Vector3d from, along;                 // the tool as predicted, and measured minus that
-    std::optional<Eigen::Vector3d> before = {};  // the same with base and tool alone
+    std::optional<Eigen::Vector3d> before = {};  // with what discover started from
   };
   std::vector<Arrow> arrows;                             // of every pose
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of the tool there, by the calibration

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Reports in a real browser, offline: pictures are drawn, nothing is said on the console (errors,
-// refusals by the policy, requests), hostile names do nothing, the page prints. Skipped where there
-// is no Chromium.
+// refusals by the policy, requests), hostile names do nothing, the page prints.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -101,7 +100,7 @@ TEST_F(InBrowser, ADiscoveryIsDrawnAndSaysWhatItsJsonSays) {
                             "Likeness of neighbours in the order of visit",
                             "Leg residuals against leg length",
                             "Map of the legs",
-                            "How the fit of base, tool and what was found arrived"})
+                            "How the fit of base, tool and effects arrived"})
     EXPECT_THAT(dom, HasSubstr(std::string("role=\"img\" aria-label=\"") + title));
   const auto json = nlohmann::json::parse(DiscoveryJson("demo", {}, discovery));
   EXPECT_THAT(dom, HasSubstr("id=\"verdict\"><strong>" + json["verdict"].get<std::string>()));

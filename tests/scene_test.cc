@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/scene.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 
 #include "model/hexapod.h"
 #include "testing/audits.h"
+#include "testing/discoveries.h"
 #include "testing/matchers.h"
 
 namespace hexcal {
@@ -15,6 +17,7 @@ namespace {
 
 using ::hexcal::testing::MatrixNear;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class SceneTest : public ::testing::Test {
  protected:
@@ -76,6 +79,42 @@ TEST_F(SceneTest, NamesAreEscapedAndFactorsAreSaid) {
   EXPECT_EQ(data.find("<i>"), std::string::npos);
   EXPECT_THAT(chart.shows, HasSubstr("times enlarged"));
   EXPECT_EQ(chart.table.rows.size(), 60u);
+}
+
+TEST_F(SceneTest, TheWordsNameOnlyWhatIsDrawn) {
+  Scene scene = Make();
+  EXPECT_THAT(SceneChart(scene).shows, HasSubstr("frames W, B, A and T, legs, markers at pose"));
+  scene.legs.clear();
+  EXPECT_THAT(SceneChart(scene).shows, HasSubstr("frames W, B, A and T, markers at pose"));
+  scene.markers.clear();
+  EXPECT_THAT(SceneChart(scene).shows, HasSubstr("frames W, B, A and T at pose"));
+  EXPECT_THAT(SceneChart(scene).shows, HasSubstr("ellipsoid"));
+  scene.covariance.setZero();
+  EXPECT_THAT(SceneChart(scene).shows, Not(HasSubstr("ellipsoid")));
+}
+
+// Of a discovery every pose has two arrows, turned from the tool's axes into the world's.
+TEST(SceneOfADiscovery, HasArrowsBeforeAndAfter) {
+  Discovery discovery = testing::MakeDiscovery();
+  const Eigen::Quaterniond turn = Exp(Eigen::Vector3d(0.3, -0.2, 0.9));
+  for (Observation& o : discovery.observations.items)
+    o.base_from_platform.rotation = o.world_from_tool.rotation = turn;
+  const Scene scene = MakeScene(testing::DatasetOf(discovery), discovery);
+  ASSERT_EQ(scene.arrows.size(), discovery.poses.size());
+  for (std::size_t i = 0; i < scene.arrows.size(); ++i) {
+    const PoseGap& pose = discovery.poses[i];
+    ASSERT_TRUE(scene.arrows[i].before.has_value());
+    EXPECT_TRUE(
+        MatrixNear(*scene.arrows[i].before, turn * Eigen::Vector3d(pose.before.head<3>()), 1e-15));
+    EXPECT_TRUE(
+        MatrixNear(scene.arrows[i].along, turn * Eigen::Vector3d(pose.after.head<3>()), 1e-15));
+  }
+  const Chart chart = SceneChart(scene);
+  EXPECT_THAT(chart.shows, HasSubstr("before and after what was found"));
+  EXPECT_EQ(chart.table.rows[3].size(), 7u);
+  EXPECT_EQ(chart.table.rows[3][4], fmt::format("{:.4f}", 1e3 * scene.arrows[3].before->x()));
+  discovery.effects.clear();
+  EXPECT_FALSE(MakeScene(testing::DatasetOf(discovery), discovery).arrows[0].before.has_value());
 }
 
 // No noise, no legs: still a picture, without numbers that are none.
