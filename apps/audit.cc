@@ -108,10 +108,12 @@ Audit AuditDataset(const Dataset& dataset,
   };
   Comparison comparison = Compare(observations, InitialOf(dataset, options), compare);
   const NoiseLevels levels = LevelsOf(observations, options.noise, comparison.reference);
+  ResultHeader header = HeaderOf(dataset.name, options, by_markers);
+  header.readings = ReadingsOf(dataset);
   return MakeAudit({dataset,
                     observations,
                     levels,
-                    HeaderOf(dataset.name, options, by_markers),
+                    std::move(header),
                     std::move(estimate),
                     std::move(comparison),
                     requirements,
@@ -145,10 +147,12 @@ Audit AuditGrown(const Dataset& dataset,
   const NoiseLevels levels = LevelsOf(solution.cleaned, options.noise, comparison.reference);
   auto target =
       grown.estimate.converged ? std::make_shared<const GrownTarget>(grown.solution) : nullptr;
+  ResultHeader header = HeaderOf(dataset.name, options, false);
+  header.readings = ReadingsOf(dataset);
   return MakeAudit({dataset,
                     solution.observations,
                     levels,
-                    HeaderOf(dataset.name, options, false),
+                    std::move(header),
                     std::move(grown.estimate),
                     std::move(comparison),
                     requirements,

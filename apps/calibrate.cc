@@ -146,8 +146,8 @@ class CalibrateRun {
   void Finish(Job* job, const Outcome& outcome) {
     if (!outcome.estimate) return Refuse(InputError(outcome.refusal));
     const Estimate& estimate = *outcome.estimate;
-    const ResultHeader header =
-        HeaderOf(job->dataset.name, options_, IsByMarkersHere(job->dataset));
+    ResultHeader header = HeaderOf(job->dataset.name, options_, IsByMarkersHere(job->dataset));
+    header.readings = ReadingsOf(job->dataset);
     const Machine machine = outcome.grown ? *outcome.grown : MachineOf(job->dataset, estimate);
     const std::string result = ResultJson(header, estimate, machine.effects);
     RunRecord record = RecordOf("calibrate", job->dataset, outcome.seconds, threads_);

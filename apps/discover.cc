@@ -38,7 +38,7 @@ Discovery DiscoverWithBars(const Dataset& dataset, DiscoverOptions options) {
 
 ResultHeader HeaderOfModel(const Dataset& dataset) {
   const bool by_markers = dataset.measurement->kind == Measurement::Kind::kMarkers;
-  return {dataset.name, "nonlinear", by_markers ? "marker" : "pose", ""};
+  return {dataset.name, "nonlinear", by_markers ? "marker" : "pose", "", ReadingsOf(dataset)};
 }
 
 std::vector<Effect> EffectsOf(const Discovery& discovery) {

@@ -73,6 +73,13 @@ double FisherFDensity(double x, double numerator_dof, double denominator_dof) {
   return boost::math::pdf(FisherF(numerator_dof, denominator_dof), x);
 }
 
+BinomialInterval ClopperPearson(long successes, long trials, double confidence) {
+  const auto n = static_cast<double>(trials), k = static_cast<double>(successes);
+  const double tail = 0.5 * (1.0 - confidence);
+  return {successes == 0 ? 0.0 : BetaQuantile(tail, k, n - k + 1.0),
+          successes == trials ? 1.0 : BetaQuantile(1.0 - tail, k + 1.0, n - k)};
+}
+
 // With half = x / 2: {A < half, B > x - A}, {B < half, A > x - B} and {A > half, B > half} are all
 // of it and do not overlap. The integrals over the smaller one by Simpson's rule in its logarithm,
 // in which the integrand is smooth.

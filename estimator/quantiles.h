@@ -22,6 +22,14 @@ double FisherFQuantile(double probability, double numerator_dof, double denomina
 double FisherFTail(double x, double numerator_dof, double denominator_dof);  // x from 0
 double FisherFDensity(double x, double numerator_dof, double denominator_dof);
 
+// The 95 % (or another confidence) limits of a probability that this many successes in so many
+// trials confirm, trials above 0: exact, never less sure than stated. Reference: C. J. Clopper, E.
+// S. Pearson, Biometrika 26 (1934).
+struct BinomialInterval {
+  double low = 0.0, high = 1.0;
+};
+BinomialInterval ClopperPearson(long successes, long trials, double confidence);
+
 // The probability that n F(n, a) + n F(n, b) exceeds x, for independent F: two sums of n squares,
 // each in units of its own estimated variance.
 double FisherSumTail(double x, double n, double a, double b);

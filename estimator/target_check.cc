@@ -122,6 +122,8 @@ TargetCheck CheckTarget(const Estimate& estimate,
   check.quantile = first_order.Quantile(probability);
   check.repeated_rms = std::sqrt(squares / n);
   check.repeated_quantile = At(lengths, probability);
+  check.inside = static_cast<int>(std::upper_bound(lengths.begin(), lengths.end(), check.quantile) -
+                                  lengths.begin());
   // By the order statistics two standard errors of a count to either side.
   const double counts = 2.0 * std::sqrt(probability * (1.0 - probability) / n);
   check.standard_error =

@@ -17,6 +17,7 @@ struct TargetCheck {
   double quantile = 0.0, repeated_quantile = 0.0;  // m
   double standard_error = 0.0;                     // of repeated_quantile
   double tolerance = 0.0;                          // half a unit of the RMS's second digit
+  int inside = 0;                                  // draws no longer than quantile
   bool agrees = false;  // quantiles differ by no more than tolerance and two standard errors
 };
 

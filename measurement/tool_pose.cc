@@ -48,11 +48,13 @@ SeenMarkers Select(const BodyReadings& readings,
   return markers;
 }
 
-// The body's frame, or nothing and the reason.
+// The body's frame, or nothing and the reason: is_collinear, else too few markers.
 std::optional<Alignment> FitBody(const BodyReadings& readings,
                                  const MarkerBody& body,
                                  const Eigen::Vector3d& sigma,
+                                 bool* is_collinear,
                                  std::string* reason) {
+  *is_collinear = false;
   const SeenMarkers seen = Select(readings, body, sigma);
   if (seen.p_in_tracker.cols() < kMinMarkers) {
     *reason = fmt::format("only {} of its {} markers were seen, {} are needed",
@@ -64,6 +66,7 @@ std::optional<Alignment> FitBody(const BodyReadings& readings,
   const Eigen::Matrix3Xd& shape = body.is_centroid ? seen.p_in_tracker : seen.p_in_body;
   const double size = (shape.colwise() - shape.rowwise().mean().eval()).norm();
   if (!(PlanarSpread(shape) > kCollinear * size)) {
+    *is_collinear = true;
     *reason = "the markers that were seen are collinear";
     return std::nullopt;
   }
@@ -118,7 +121,8 @@ class MarkersToPoses {
         all[m].count += pose[m].count;
       }
     std::string reason;
-    common_world_ = FitBody(all, measurement_.bodies[0], sigma_, &reason);
+    bool is_collinear = false;
+    common_world_ = FitBody(all, measurement_.bodies[0], sigma_, &is_collinear, &reason);
     if (!common_world_)
       throw InputError(measurement_.where,
                        "a base body whose frame cannot be found: " + reason,
@@ -146,13 +150,15 @@ class MarkersToPoses {
 
   std::optional<Alignment> Fit(BodyId body, int pose) {
     std::string reason;
+    bool is_collinear = false;
     const int b = static_cast<int>(body);
-    auto fit = FitBody(readings_[b][pose], measurement_.bodies[b], sigma_, &reason);
-    if (!fit)
-      result_.warnings.push_back(fmt::format("pose '{}' is left out: of the {} body, {}",
-                                             dataset_.robot_poses.rows[pose].label,
-                                             BodyName(body),
-                                             reason));
+    auto fit = FitBody(readings_[b][pose], measurement_.bodies[b], sigma_, &is_collinear, &reason);
+    if (fit) return fit;
+    result_.left_out.push_back({pose, body, is_collinear});
+    result_.warnings.push_back(fmt::format("pose '{}' is left out: of the {} body, {}",
+                                           dataset_.robot_poses.rows[pose].label,
+                                           BodyName(body),
+                                           reason));
     return fit;
   }
 

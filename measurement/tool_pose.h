@@ -18,6 +18,14 @@ struct ToolPose {
   Matrix6d covariance = Matrix6d::Zero();  // meaningful where ToolPoses::has_covariance
 };
 
+// A pose that was read and cannot be used, since of one body too few markers were seen, or only
+// collinear ones.
+struct LeftOutPose {
+  int pose = 0;  // row of robot_poses
+  BodyId body = BodyId::kBase;
+  bool is_collinear = false;
+};
+
 struct ToolPoses {
   std::vector<ToolPose> poses;  // in the order of robot_poses
   bool has_covariance = false;  // the noise was stated
@@ -26,7 +34,8 @@ struct ToolPoses {
   // that error is told by the scatter of the base's readings.
   std::optional<Pose3d> tracker_from_world;
   Matrix6d tracker_from_world_covariance = Matrix6d::Zero();
-  std::vector<std::string> warnings;  // poses left out, with the reason
+  std::vector<LeftOutPose> left_out;
+  std::vector<std::string> warnings;  // the same in words
 };
 
 // Markers to poses (paper, Section 5.1 and Eqs. 33-41; rigid bodies by a weighted fit), or the

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "estimator/mount_change.h"
 #include "estimator/quantiles.h"
 #include "estimator/registration_error.h"
 #include "geometry/rotation_angles.h"
@@ -82,6 +81,7 @@ HeldOutTest HeldOutTestOf(const std::vector<PoseCheck>& poses) {
                                pose.held_out.tail<3>().squaredNorm(),
                                std::pow(pose.expected_orientation, 2));
   }
+  if (test.poses > 0) test.coverage = CoverageOf(test.inside, test.poses, kProbability);
   squares = (squares / std::max(test.poses, 1)).cwiseSqrt();
   test.rms_position = squares[0], test.expected_position = squares[1];
   test.rms_orientation = squares[2], test.expected_orientation = squares[3];
@@ -111,27 +111,6 @@ std::vector<BodyReport> BodiesOf(const Dataset& dataset,
     bodies.push_back(report);
   }
   return bodies;
-}
-
-Change ChangeOf(const EarlierResult& earlier, const Audit& audit) {
-  Change change;
-  change.earlier = earlier;
-  const BaseAndTool& now = audit.estimate.mounts;
-  const MountChange found =
-      ChangeBetween({earlier.mounts, earlier.covariance, earlier.determined},
-                    {now, audit.estimate.covariance, audit.estimate.observability.determined});
-  change.difference = found.difference;
-  change.sigmas = found.sigmas;
-  change.chi_square = found.chi_square;
-  change.p_value = found.p_value;
-  const Pose3d centre = PoseFromVector(audit.workspace.Centre());
-  for (const NamedPoint& point : audit.requirements.points)
-    change.at_points.push_back(
-        (now.world_from_base * centre * now.platform_from_tool * point.p_in_tool -
-         earlier.mounts.world_from_base * centre * earlier.mounts.platform_from_tool *
-             point.p_in_tool)
-            .norm());
-  return change;
 }
 
 PointAt AtPlace(const TargetError& error, const NamedPoint& point, const Place& place) {
@@ -168,6 +147,17 @@ PointReport ReportPoint(const Audit& audit,
                                audit.grown);
   report.map = MapAccuracy(error, point.p_in_tool, audit.workspace, input.dataset, kProbability);
   return report;
+}
+
+std::vector<std::string> NamesOf(const std::vector<NamedPoint>& points) {
+  std::vector<std::string> names;
+  for (const NamedPoint& point : points) names.push_back(point.name);
+  return names;
+}
+
+std::optional<BaseAndTool> InitialOf(const Dataset& dataset) {
+  if (!dataset.initial) return std::nullopt;
+  return BaseAndTool{dataset.initial->world_from_base, dataset.initial->platform_from_tool};
 }
 
 std::vector<std::string> DoubtsOf(const Audit& audit) {
@@ -236,9 +226,9 @@ Audit MakeAudit(AuditInput input) {
   for (const StatedSource& stated : audit.requirements.sources)
     audit.sources.push_back(stated.source);
   audit.workspace = MakeWorkspace(audit.requirements.workspace, input.observations);
-  std::vector<std::string> point_names;
-  for (const NamedPoint& point : audit.requirements.points) point_names.push_back(point.name);
-  audit.frames = FrameGraphOf(input.dataset, std::move(point_names));
+  audit.frames = FrameGraphOf(input.dataset, NamesOf(audit.requirements.points));
+  audit.rows = CountRows(input.dataset, audit.estimate);
+  audit.design = PoseDesignOf(input.dataset, input.observations);
   audit.scene = MakeScene(input.dataset, input.observations, audit.estimate);
   audit.left_over = MakeLeftOver(input.dataset, input.observations, audit.estimate);
   audit.global = GlobalTestOf(audit.estimate);
@@ -264,7 +254,18 @@ Audit MakeAudit(AuditInput input) {
     audit.decisions.push_back(Decide(
         audit, requirement, requirement.over == Requirement::Places::kWorkspace ? places : poses));
   audit.compliance = Together(audit.decisions);
-  if (input.earlier) audit.change = ChangeOf(*input.earlier, audit);
+  const Pose3d centre = PoseFromVector(audit.workspace.Centre());
+  audit.linearity =
+      CheckLinearity(audit.grown ? audit.grown->solution().cleaned : input.observations,
+                     InitialOf(input.dataset),
+                     input.levels,
+                     audit.comparison,
+                     audit.requirements.points,
+                     centre,
+                     places);
+  if (input.earlier)
+    audit.change = ChangeOf(
+        *input.earlier, audit.estimate, audit.header.readings, audit.requirements.points, centre);
   return audit;
 }
 

@@ -11,12 +11,15 @@
 #include "estimator/pose_check.h"
 #include "estimator/target_check.h"
 #include "report/accuracy_map.h"
+#include "report/change.h"
 #include "report/correlation.h"
-#include "report/earlier_result.h"
 #include "report/frame_graph.h"
 #include "report/left_over.h"
+#include "report/linearity.h"
+#include "report/pose_design.h"
 #include "report/requirement.h"
 #include "report/result_json.h"
+#include "report/row_counts.h"
 #include "report/scene.h"
 #include "report/workspace.h"
 
@@ -83,17 +86,8 @@ struct HeldOutTest {
   double rms_position = 0.0, expected_position = 0.0;        // m
   double rms_orientation = 0.0, expected_orientation = 0.0;  // rad
   int inside = 0, poses = 0;                                 // within their 95 % region
-  int fewest = 0;  // so many at least with a probability of 99 %, were all well
-};
-
-// What has changed since an earlier calibration.
-struct Change {
-  EarlierResult earlier;
-  Vector12d difference = Vector12d::Zero();  // new [-] earlier, m and rad
-  Vector12d sigmas =
-      Vector12d::Zero();  // in standard deviations of the difference; NaN: not determined
-  double chi_square = 0.0, p_value = 0.0;  // of all 12
-  std::vector<double> at_points;           // how far the named points have moved at the centre, m
+  int fewest = 0;                    // so many at least with a probability of 99 %, were all well
+  std::optional<Coverage> coverage;  // of the 95 % regions
 };
 
 // All that a report of accuracy says. SI.
@@ -106,6 +100,9 @@ struct Audit {
   bool robot_is_stated = false;
   Estimate estimate;
   Comparison comparison;
+  std::vector<RowCount> rows;  // of the inputs
+  PoseDesign design;
+  Linearity linearity;
   FrameGraph frames;
   Scene scene;
   LeftOver left_over;

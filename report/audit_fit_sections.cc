@@ -106,6 +106,14 @@ void AddValidation(const Audit& audit, HtmlPage* page) {
                   held.inside,
                   held.poses,
                   held.fewest));
+  page->Paragraph(
+      fmt::format("Coverage of the 95 % regions: {}, the share that was achieved and the 95 % "
+                  "limits of its probability that so many poses confirm (binomial, Clopper and "
+                  "Pearson). {}",
+                  CoverageText(*held.coverage),
+                  held.coverage->HoldsNominal()
+                      ? "95 % is among them."
+                      : "95 % is not among them: noise or model are not what they are taken for."));
   page->Figure(HeldOutChart(audit.poses));
 }
 

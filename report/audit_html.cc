@@ -93,6 +93,7 @@ void AddIdentification(const AuditIdentity& identity,
   HtmlTable files = {{{"input"}, {"SHA-256"}}, {}};
   for (const HashedFile& file : identity.inputs) files.rows.push_back({file.path, file.sha256});
   page->Table(files);
+  AddRowCounts(audit, page);
   page->Note(
       "The report's number is the SHA-256 of the inputs' hashes, the settings and result.json. "
       "What "
@@ -204,6 +205,7 @@ std::string AuditHtml(const AuditIdentity& identity,
   AddVerdict(audit, &page);
   AddIdentification(identity, record, audit, &page);
   AddMeasurand(audit, &page);
+  AddPoseDesign(audit, &page);
   AddModel(audit, &page);
   AddMounts(audit.estimate, &page);
   AddLinearizedAgainstNonlinear(audit, &page);

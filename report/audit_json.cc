@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/audit_json.h"
 
-#include <cmath>
-
 #include "geometry/rotation_angles.h"
+#include "report/audit_json_parts.h"
 #include "report/audit_model.h"
 #include "report/json_parts.h"
 #include "report/json_text.h"
@@ -12,8 +11,6 @@ namespace hexcal {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json PlaceObject(const Place& place) {
   Json object = {{"pose_vector", JsonList(VectorFromPose(place.base_from_platform))}};
@@ -53,6 +50,7 @@ Json CheckObject(const TargetCheck& check) {
           {"repeated_length_95", check.repeated_quantile},
           {"standard_error", check.standard_error},
           {"tolerance", check.tolerance},
+          {"coverage", JsonCoverage(CoverageOf(check.inside, check.draws, 0.95))},
           {"agrees", check.agrees}};
 }
 
@@ -68,7 +66,7 @@ Json PivotOf(const NamedPoint& point) {
   for (int i = 0; i < 3; ++i) rows.push_back(JsonList(point.pivot->covariance.row(i)));
   return {{"file", point.pivot->path},
           {"covariance", rows},
-          {"degrees_of_freedom", Number(point.pivot->degrees_of_freedom)}};
+          {"degrees_of_freedom", JsonNumber(point.pivot->degrees_of_freedom)}};
 }
 
 Json Points(const Audit& audit) {
@@ -81,7 +79,7 @@ Json Points(const Audit& audit) {
                         {"type", std::string(1, row.type)},
                         {"rms", row.rms},
                         {"share", row.share},
-                        {"degrees_of_freedom", Number(row.degrees_of_freedom)}});
+                        {"degrees_of_freedom", JsonNumber(row.degrees_of_freedom)}});
     list.push_back({{"name", report.point.name},
                     {"xyz", JsonList(report.point.p_in_tool)},
                     {"standard_deviation", Deviations(report.point)},
@@ -110,7 +108,7 @@ Json Methods(const Audit& audit) {
   Json list = Json::array();
   for (const MethodResult& method : audit.comparison.methods) {
     Json sigmas = Json::array();
-    for (const double s : method.sigmas) sigmas.push_back(Number(s));
+    for (const double s : method.sigmas) sigmas.push_back(JsonNumber(s));
     list.push_back(
         {{"name", std::string(InfoOf(method.method).name)},
          {"converged", method.fit.converged},
@@ -119,21 +117,6 @@ Json Methods(const Audit& audit) {
          {"held_out_orientation", method.held_out ? Json(method.held_out->orientation) : Json()}});
   }
   return list;
-}
-
-Json ChangeObject(const Audit& audit) {
-  const Change& change = *audit.change;
-  Json sigmas = Json::array(), points = Json::array();
-  for (const double s : change.sigmas) sigmas.push_back(Number(s));
-  for (std::size_t i = 0; i < change.at_points.size(); ++i)
-    points.push_back(
-        {{"point", audit.requirements.points[i].name}, {"moved", change.at_points[i]}});
-  return {{"dataset", change.earlier.dataset},
-          {"difference", JsonList(change.difference)},
-          {"sigmas", sigmas},
-          {"chi_square", Number(change.chi_square)},
-          {"p_value", Number(change.p_value)},
-          {"points", points}};
 }
 
 Json Bodies(const Audit& audit) {
@@ -161,12 +144,14 @@ Json AuditObject(const AuditIdentity& identity, const Audit& audit) {
   json["inputs"] = Json::array();
   for (const HashedFile& file : identity.inputs)
     json["inputs"].push_back({{"file", file.path}, {"sha256", file.sha256}});
+  json["rows"] = JsonRows(audit);
   Json box = Json::array();
   for (const auto& range : audit.workspace.box) box.push_back({range[0], range[1]});
   json["workspace"] = {{"ranges", box},
                        {"stated", audit.workspace.is_stated},
                        {"measured", audit.workspace.is_measured},
                        {"places", audit.places}};
+  json["pose_design"] = JsonPoseDesign(audit.design);
   json["points"] = Points(audit);
   json["strong_correlations"] = Json::array();
   for (const Correlation& c : audit.correlations)
@@ -187,7 +172,8 @@ Json AuditObject(const AuditIdentity& identity, const Audit& audit) {
                       {"expected_orientation", held.expected_orientation},
                       {"inside_95", held.inside},
                       {"poses", held.poses},
-                      {"fewest_inside", held.fewest}};
+                      {"fewest_inside", held.fewest},
+                      {"coverage", held.coverage ? JsonCoverage(*held.coverage) : Json()}};
   json["methods"] = Methods(audit);
   const PropagationCheck& propagation = audit.comparison.propagation;
   json["propagation"] = {{"done", propagation.done},
@@ -195,9 +181,10 @@ Json AuditObject(const AuditIdentity& identity, const Audit& audit) {
                          {"draws", propagation.draws},
                          {"stable", propagation.stable},
                          {"validated", propagation.validated}};
+  json["linearized"] = JsonLinearity(audit);
   json["bodies"] = Bodies(audit);
   json["poses"] = Poses(audit);
-  json["change"] = audit.change ? ChangeObject(audit) : Json();
+  json["change"] = audit.change ? JsonChange(audit) : Json();
   if (audit.grown) json["model"] = JsonModel(audit);
   if (identity.log) json["history"] = ChangeLogJson(*identity.log);
   json["warnings"] = audit.estimate.warnings;

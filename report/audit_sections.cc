@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "report/accuracy_charts.h"
-#include "report/comparison_sections.h"
 #include "report/quantity.h"
 
 namespace hexcal {
@@ -16,29 +15,6 @@ namespace {
 constexpr const char* kNumbers[6] = {"x, mm", "y, mm", "z, mm", "rx, mrad", "ry, mrad", "rz, mrad"};
 
 }  // namespace
-
-void AddLinearizedAgainstNonlinear(const Audit& audit, HtmlPage* page) {
-  page->Section("Linearized against nonlinear");
-  AddMethods(audit.comparison, page);
-  AddPropagation(audit.comparison.propagation, page);
-  if (!audit.comparison.propagation.done) return;
-  HtmlTable checks = {{{"point, where it is worst"},
-                       {"first order, mm", true},
-                       {"by repetition, mm", true},
-                       {"standard error, mm", true},
-                       {"agree"}},
-                      {}};
-  for (const PointReport& report : audit.points)
-    if (report.check)
-      checks.rows.push_back({report.point.name,
-                             fmt::format("{:.5f}", 1e3 * report.check->quantile),
-                             fmt::format("{:.5f}", 1e3 * report.check->repeated_quantile),
-                             fmt::format("{:.5f}", 1e3 * report.check->standard_error),
-                             report.check->agrees ? "yes" : "no"});
-  if (!checks.rows.empty()) page->Table(checks);
-  page->Note(
-      "The length that the error of the point does not exceed with 95 %; noise counts as known.");
-}
 
 void AddBudget(const Audit& audit, HtmlPage* page) {
   page->Section("Uncertainty budget");
@@ -114,40 +90,6 @@ void AddAccuracy(const Audit& audit, HtmlPage* page) {
   page->Table(table);
   page->List(places);
   for (const PointReport& report : audit.points) page->Figure(MapChart(report));
-}
-
-void AddChange(const Audit& audit, HtmlPage* page) {
-  if (!audit.change) return;
-  const Change& change = *audit.change;
-  page->Section("Change since an earlier calibration");
-  page->Paragraph(fmt::format(
-      "Earlier: {} (dataset {}). {}",
-      change.earlier.path,
-      change.earlier.dataset,
-      std::isfinite(change.chi_square)
-          ? fmt::format(
-                "All 12 together: chi-square {:.4g}, of 12 degrees of freedom; by chance it is as "
-                "large with a probability of {}.",
-                change.chi_square,
-                ProbabilityText(change.p_value))
-          : "Not all 12 parameters are determined in both."));
-  HtmlTable table = {{{"parameter"}, {"change", true}, {"in its standard uncertainties", true}},
-                     {}};
-  for (int i = 0; i < 12; ++i)
-    table.rows.push_back(
-        {std::string(kParameters[i].name),
-         fmt::format(
-             "{:.4f} {}", 1e3 * change.difference[i], kParameters[i].is_angle ? "mrad" : "mm"),
-         std::isfinite(change.sigmas[i]) ? fmt::format("{:.2f}", change.sigmas[i]) : "–"});
-  page->Table(table);
-  HtmlTable points = {{{"point, at the centre of the workspace"}, {"has moved, mm", true}}, {}};
-  for (std::size_t i = 0; i < change.at_points.size(); ++i)
-    points.rows.push_back(
-        {audit.requirements.points[i].name, fmt::format("{:.4f}", 1e3 * change.at_points[i])});
-  page->Table(points);
-  page->Note(
-      "The two calibrations count as independent. That is so only where no reading is in both: "
-      "else the change is surer than its uncertainty says.");
 }
 
 }  // namespace hexcal

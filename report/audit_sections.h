@@ -6,7 +6,9 @@
 
 namespace hexcal {
 
-// The sections of an audit's report that are about numbers.
+// The sections of an audit's report that are about numbers, and what goes into some.
+void AddRowCounts(const Audit& audit, HtmlPage* page);
+void AddPoseDesign(const Audit& audit, HtmlPage* page);
 void AddLinearizedAgainstNonlinear(const Audit& audit, HtmlPage* page);
 void AddGoodnessOfFit(const Audit& audit, HtmlPage* page);
 void AddBudget(const Audit& audit, HtmlPage* page);

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "report/quantity.h"
 
 namespace hexcal {
@@ -30,6 +33,30 @@ std::string PointLines(const PointReport& report) {
                         SizeText(report.check->quantile, "m"),
                         report.check->agrees ? "they agree" : "they do NOT agree");
   return text;
+}
+
+// NaN: not determined.
+double LargestOf(const Vector12d& values) {
+  double largest = 0.0;
+  for (const double value : values)
+    if (std::isfinite(value)) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+std::string ChangeLine(const Change& change) {
+  const std::string& path = change.earlier.path;
+  if (change.shared.poses > 0)
+    return fmt::format(
+        "  changed        by at most {:.2g} standard uncertainties since {}; not tested, "
+        "as {} poses have the same readings in both\n",
+        LargestOf(change.over_own),
+        path,
+        change.shared.poses);
+  return fmt::format("  changed        chi-square {:.4g} of 12 since {} (p {}{})\n",
+                     change.chi_square,
+                     path,
+                     ProbabilityText(change.p_value),
+                     change.shared.is_known ? "" : ", if no reading is in both");
 }
 
 }  // namespace
@@ -61,11 +88,7 @@ std::string AuditTable(const Audit& audit) {
                     audit.held_out.poses,
                     SizeText(audit.held_out.rms_position, "m"),
                     SizeText(audit.held_out.expected_position, "m"));
-  if (audit.change)
-    text += fmt::format("  changed        chi-square {:.4g} of 12 since {} (p {})\n",
-                        audit.change->chi_square,
-                        audit.change->earlier.path,
-                        ProbabilityText(audit.change->p_value));
+  if (audit.change) text += ChangeLine(*audit.change);
   for (const std::string& doubt : audit.doubts) text += fmt::format("  doubt          {}\n", doubt);
   return text;
 }

@@ -8,12 +8,17 @@
 namespace hexcal {
 namespace {
 
-// JSON is read as the YAML that it is, for the line numbers.
-const YamlNode& Key(const YamlNode& map, std::string_view key) {
+// JSON is read as the YAML that it is, for the line numbers. nullptr: no such key.
+const YamlNode* Find(const YamlNode& map, std::string_view key) {
   if (map.kind != YamlNode::Kind::kMap)
     throw InputError(map.where, Describe(map), "a result.json of hexcal");
   for (const auto& [name, value] : map.entries)
-    if (name.scalar == key) return value;
+    if (name.scalar == key) return &value;
+  return nullptr;
+}
+
+const YamlNode& Key(const YamlNode& map, std::string_view key) {
+  if (const YamlNode* value = Find(map, key)) return *value;
   throw InputError(map.where, fmt::format("no key '{}'", key), "a result.json of hexcal");
 }
 
@@ -24,6 +29,19 @@ Pose3d ReadMount(const YamlNode& node) {
   if (!(std::abs(rotation.norm() - 1.0) < 1e-3))
     throw InputError(Key(node, "quaternion").where, "a quaternion of another length", "length one");
   return {Eigen::Vector3d(xyz[0], xyz[1], xyz[2]), rotation.normalized()};
+}
+
+// Of the poses that were used; nothing where the result does not say so of all of them.
+std::vector<std::string> ReadReadings(const YamlNode& root) {
+  std::vector<std::string> all;
+  const YamlNode* poses = Find(root, "poses");
+  if (poses == nullptr) return all;
+  for (const YamlNode& pose : ReadSequence(*poses, "a list of poses")) {
+    const YamlNode* readings = Find(pose, "readings");
+    if (readings == nullptr) return {};
+    if (ReadNumber(Key(pose, "weight")) > 0.0) all.push_back(ReadText(*readings));
+  }
+  return all;
 }
 
 }  // namespace
@@ -49,6 +67,7 @@ EarlierResult ReadEarlierResult(const std::string& path) {
     for (int j = 0; j < 12; ++j)
       if (row[j].kind != YamlNode::Kind::kNull) result.covariance(i, j) = ReadNumber(row[j]);
   }
+  result.readings = ReadReadings(root);
   return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "residuals/pose_error.h"
 
@@ -14,6 +15,8 @@ struct EarlierResult {
   BaseAndTool mounts;
   Matrix12d covariance = Matrix12d::Zero();
   std::array<bool, 12> determined = {};
+  // What its poses that had a weight were read by (report/readings.h); empty where it does not say.
+  std::vector<std::string> readings = {};
 };
 
 // InputError for a file that is no result.json.

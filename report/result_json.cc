@@ -40,10 +40,14 @@ Matrix12d Correlation(const Matrix12d& covariance) {
   return scale.asDiagonal() * covariance * scale.asDiagonal();
 }
 
-Json Poses(const Estimate& estimate) {
+// Poses stand in the order of the dataset's.
+Json Poses(const Estimate& estimate, const DatasetReadings& readings) {
   Json list = Json::array();
+  auto row = readings.begin();
   for (const PoseResult& p : estimate.poses) {
     Json pose = {{"pose", p.label}, {"weight", p.weight}, {"residual", JsonList(p.residual)}};
+    while (row != readings.end() && row->pose != p.label) ++row;
+    if (row != readings.end()) pose["readings"] = HexOf(row->hash);
     for (const MarkerMisfit& m : p.markers)
       pose["markers"].push_back({{"marker", m.marker}, {"residual", JsonList(m.residual)}});
     list.push_back(std::move(pose));
@@ -108,7 +112,7 @@ Json ResultObject(const ResultHeader& header,
                              {"condition_number", observability.condition_number},
                              {"weak_directions", observability.weak_directions}};
   result["certificate"] = estimate.certificate ? JsonCertificate(*estimate.certificate) : Json();
-  result["poses"] = Poses(estimate);
+  result["poses"] = Poses(estimate, header.readings);
   result["outliers"] = Outliers(estimate);
   result["effects"] = Json::array();
   for (const Effect& effect : effects) result["effects"].push_back(JsonEffect(effect));

@@ -6,6 +6,7 @@
 
 #include "estimator/estimate.h"
 #include "model/effect.h"
+#include "report/readings.h"
 
 namespace hexcal {
 
@@ -15,6 +16,8 @@ struct ResultHeader {
   std::string solver;    // nonlinear | linearized
   std::string residual;  // pose
   std::string error;     // paper | twist; empty for the nonlinear solver
+  // Of the dataset: by them an audit sees whether two results share any. May be empty.
+  DatasetReadings readings = {};
 };
 
 // result.json (docs/results.md), format hexcal/result/1: a key a line, an entry of a list of

@@ -169,6 +169,19 @@ TEST_F(AuditTest, JsonSaysTheSame) {
   EXPECT_EQ(json["points"][0]["worst"]["length_95"], audit.points[0].worst.length_95);
   EXPECT_EQ(json["poses"].size(), 60u);
   EXPECT_TRUE(json["change"].is_null());
+  EXPECT_EQ(json["held_out"]["coverage"]["inside"], audit.held_out.inside);
+  EXPECT_EQ(json["held_out"]["coverage"]["low"], audit.held_out.coverage->limits.low);
+  EXPECT_EQ(json["points"][0]["monte_carlo"]["coverage"]["of"], audit.points[0].check->draws);
+  EXPECT_EQ(json["rows"][0]["input"], "robot poses");
+  EXPECT_EQ(json["rows"][0]["used"], 60);
+  EXPECT_EQ(json["rows"].size(), audit.rows.size());
+  EXPECT_EQ(json["pose_design"]["ranges"][2][1], audit.design.span[2][1]);
+  EXPECT_EQ(json["pose_design"]["angle_between_axes"], audit.design.angle_between_axes);
+  EXPECT_EQ(json["linearized"]["solutions"][0]["name"], "paper");
+  EXPECT_EQ(json["linearized"]["solutions"][0]["points"][0]["largest"],
+            audit.linearity.solutions[0].points[0].largest);
+  EXPECT_EQ(json["linearized"]["repeated"][11]["uncertainty_ratio"],
+            audit.linearity.repeated[11].ratio);
 }
 
 }  // namespace

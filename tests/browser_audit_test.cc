@@ -90,13 +90,16 @@ TEST(AuditInBrowser, IsDrawnSaysWhatItsJsonSaysAndItsNamesAreOnlyNames) {
   const std::string dom = Before(browser.Dom(html), "plotly.js (cartesian");
   ExpectQuiet(browser.Console());
   const int pictures = Count(html, "class=\"plot\"");
-  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 15);
+  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 17);
   EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), pictures);
   EXPECT_EQ(Count(dom, "data-complete="), FlatCharts().empty() ? 0 : 1);
   const auto json = nlohmann::json::parse(AuditJson(identity, audit));
   EXPECT_THAT(dom,
               AllOf(HasSubstr(identity.log->mark.head),
                     HasSubstr("id=\"verdict\"><strong>" + json["verdict"].get<std::string>()),
+                    HasSubstr("Where the measured poses lie</h3>"),
+                    HasSubstr("How the poses are turned</h3>"),
+                    HasSubstr("What became of every row</h3>"),
                     HasSubstr("<title>Accuracy audit: neurobot</title>"),
                     Not(HasSubstr("<img")),
                     HasSubstr("&lt;img")));

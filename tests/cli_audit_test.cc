@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -19,6 +20,7 @@ namespace {
 using ::hexcal::testing::ProgramResult;
 using ::hexcal::testing::RunHexcal;
 using ::hexcal::testing::TemporaryFolder;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
@@ -113,16 +115,49 @@ TEST_F(CliAudit, WritesTheSameBytesWhateverTheThreads) {
   EXPECT_EQ(Json::parse(again.out), Json::parse(Read("audit.json")));
 }
 
-// Against its own result nothing has changed; result.json goes in as it came out.
-TEST_F(CliAudit, ComparesWithAnEarlierResult) {
+// Against its own result nothing has changed, and nothing is tested: no reading is a new one.
+TEST_F(CliAudit, TestsNoChangeBetweenResultsOfTheSameReadings) {
   ASSERT_EQ(Audit({"--quiet"}).status, 0);
   const std::string earlier = folder.Write("earlier.json", Read("result.json"));
-  ASSERT_EQ(Audit({"--quiet", "--previous=" + earlier}).status, 0);
+  const ProgramResult result = Audit({"--residual=pose", "--previous=" + earlier});
+  ASSERT_EQ(result.status, 0);
   const Json audit = Json::parse(Read("audit.json"));
   EXPECT_EQ(audit["verdict"], "none");
-  EXPECT_NEAR(audit["change"]["chi_square"].get<double>(), 0.0, 1e-9);
-  EXPECT_NEAR(audit["change"]["p_value"].get<double>(), 1.0, 1e-9);
-  EXPECT_THAT(Read("report.html"), HasSubstr("Change since an earlier calibration"));
+  const Json change = audit["change"];
+  EXPECT_TRUE(change["p_value"].is_null() && change["chi_square"].is_null());
+  EXPECT_TRUE(change["sigmas"][0].is_null());
+  EXPECT_LT(std::abs(change["over_own"][0].get<double>()), 1.0);
+  EXPECT_EQ(change["shared_readings"],
+            Json::parse(R"({"known": true, "poses": 60, "of": 60, "earlier_of": 60})"));
+  EXPECT_THAT(Read("report.html"),
+              AllOf(HasSubstr("Change since an earlier calibration"),
+                    HasSubstr("the very same readings of 60 poses"),
+                    HasSubstr("no probability is given")));
+  EXPECT_THAT(result.out, HasSubstr("60 poses have the same readings in both"));
+}
+
+// Of other readings of another machine: all has changed.
+TEST_F(CliAudit, ComparesWithAnEarlierResultOfOtherReadings) {
+  const ProgramResult other =
+      RunHexcal({{"calibrate",
+                  std::string(HEXCAL_EXAMPLES) + "/neurobot-test/dataset.yaml",
+                  "--out=other",
+                  "--quiet"},
+                 folder.Path("")});
+  ASSERT_EQ(other.status, 0) << other.err;
+  ASSERT_EQ(Audit({"--quiet", "--previous=other/neurobot-test/result.json"}).status, 0);
+  Json change = Json::parse(Read("audit.json"))["change"];
+  EXPECT_EQ(change["shared_readings"]["known"], true);
+  EXPECT_EQ(change["shared_readings"]["poses"], 0);
+  EXPECT_GE(change["p_value"].get<double>(), 0.0);
+  // One that does not say which readings it used, as hexcal wrote them once.
+  std::string old = folder.Read("other/neurobot-test/result.json");
+  for (std::size_t at; (at = old.find(",\"readings\":")) != std::string::npos;) old.erase(at, 30);
+  ASSERT_EQ(Audit({"--quiet", "--previous=" + folder.Write("old.json", old)}).status, 0);
+  change = Json::parse(Read("audit.json"))["change"];
+  EXPECT_EQ(change["shared_readings"]["known"], false);
+  EXPECT_FALSE(change["p_value"].is_null());
+  EXPECT_THAT(Read("report.html"), HasSubstr("does not say which readings it used"));
 }
 
 TEST_F(CliAudit, RefusesWhatIsNotAsItShouldBe) {

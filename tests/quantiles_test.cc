@@ -34,6 +34,28 @@ TEST(Quantiles, OfNormalAndBetaAreTableAndClosedForm) {
   }
 }
 
+double BinomialTail(int from, int n, double p) {
+  double sum = 0.0;
+  for (int k = from; k <= n; ++k)
+    sum += std::exp(std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0) +
+                    k * std::log(p) + (n - k) * std::log1p(-p));
+  return sum;
+}
+
+// By hand where none or all succeed; else each limit leaves half of the rest to its tail.
+TEST(Quantiles, BinomialLimitsLeaveHalfOfTheRestToEitherSide) {
+  const BinomialInterval none = ClopperPearson(0, 10, 0.95), all = ClopperPearson(10, 10, 0.95);
+  EXPECT_EQ(none.low, 0.0);
+  EXPECT_NEAR(none.high, 1.0 - std::pow(0.025, 0.1), 1e-12);
+  EXPECT_NEAR(all.low, std::pow(0.025, 0.1), 1e-12);
+  EXPECT_EQ(all.high, 1.0);
+  for (const auto& [k, n] : {std::pair{5, 10}, {50, 60}, {947, 1000}}) {
+    const BinomialInterval limits = ClopperPearson(k, n, 0.9);
+    EXPECT_NEAR(BinomialTail(k, n, limits.low), 0.05, 1e-9);
+    EXPECT_NEAR(BinomialTail(k + 1, n, limits.high), 0.95, 1e-9);
+  }
+}
+
 TEST(Quantiles, TailsAreTheClosedForms) {
   for (const double x : {0.0, 0.3, 1.0, 5.0, 40.0}) {
     EXPECT_NEAR(StudentTTail(x, 2.0), 0.5 * (1.0 - x / std::sqrt(2.0 + x * x)), 1e-15);

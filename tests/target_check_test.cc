@@ -50,6 +50,7 @@ TEST(TargetCheck, FirstOrderAndRepetitionAgreeWhereNoiseIsSmall) {
   EXPECT_NEAR(check.repeated_rms / check.rms, 1.0, 0.02);
   EXPECT_NEAR(check.repeated_quantile / check.quantile, 1.0, 0.03);
   EXPECT_TRUE(check.agrees);
+  EXPECT_NEAR(static_cast<double>(check.inside) / check.draws, 0.95, 0.01);
   EXPECT_LT(check.standard_error, 0.02 * check.quantile);
   EXPECT_GT(check.standard_error, 0.0);
 }

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "report/audit_sections.h"
+#include "report/comparison_sections.h"
+#include "report/coverage.h"
+
+namespace hexcal {
+namespace {
+
+std::string Number(double value, const char* format) {
+  return std::isfinite(value) ? fmt::format(fmt::runtime(format), value) : "–";
+}
+
+std::string UncertaintyText(const Estimate& nonlinear, int i) {
+  if (!nonlinear.observability.determined[i]) return "–";
+  return fmt::format("{:.4f} {}",
+                     1e3 * std::sqrt(nonlinear.covariance(i, i)),
+                     kParameters[i].is_angle ? "mrad" : "mm");
+}
+
+// Twelve rows: how far each linearized solution is off, and how its uncertainty compares.
+HtmlTable ParameterTable(const Audit& audit) {
+  HtmlTable table = {{{"parameter"}, {"u", true}}, {}};
+  for (const LinearizedSolution& solution : audit.linearity.solutions) {
+    table.columns.push_back({solution.title + ", Δ/u", true});
+    table.columns.push_back({"its u, by u", true});
+  }
+  for (int i = 0; i < 12; ++i) {
+    std::vector<std::string> row = {std::string(kParameters[i].name),
+                                    UncertaintyText(audit.comparison.reference, i)};
+    for (const LinearizedSolution& solution : audit.linearity.solutions) {
+      row.push_back(Number(solution.over_u[i], "{:.3g}"));
+      row.push_back(Number(solution.ratio[i], "{:.4f}"));
+    }
+    table.rows.push_back(row);
+  }
+  return table;
+}
+
+HtmlTable RepeatedTable(const Audit& audit) {
+  HtmlTable table = {{{"parameter"},
+                      {"u by repetition, by u by first order", true},
+                      {"within ±1.96 u, nominally 95 %", true}},
+                     {}};
+  for (std::size_t i = 0; i < audit.linearity.repeated.size(); ++i)
+    table.rows.push_back({std::string(kParameters[i].name),
+                          Number(audit.linearity.repeated[i].ratio, "{:.4f}"),
+                          CoverageText(audit.linearity.repeated[i].coverage)});
+  return table;
+}
+
+HtmlTable PointTable(const Audit& audit) {
+  HtmlTable table = {{{"point"},
+                      {"method"},
+                      {"off at the centre, mm", true},
+                      {"off at most, mm", true},
+                      {"RMS by the calibration, over the nonlinear one's", true}},
+                     {}};
+  for (std::size_t p = 0; p < audit.requirements.points.size(); ++p)
+    for (const LinearizedSolution& solution : audit.linearity.solutions)
+      table.rows.push_back({audit.requirements.points[p].name,
+                            solution.title,
+                            fmt::format("{:.2g}", 1e3 * solution.points[p].centre),
+                            fmt::format("{:.2g}", 1e3 * solution.points[p].largest),
+                            Number(solution.points[p].ratio, "{:.4f}")});
+  return table;
+}
+
+void AddRepetition(const Audit& audit, HtmlPage* page) {
+  page->Table(RepeatedTable(audit));
+  HtmlTable checks = {{{"point, where it is worst"},
+                       {"first order, mm", true},
+                       {"by repetition, mm", true},
+                       {"standard error, mm", true},
+                       {"RMS by repetition over first order", true},
+                       {"not longer than by first order, nominally 95 %", true},
+                       {"agree"}},
+                      {}};
+  for (const PointReport& report : audit.points)
+    if (report.check)
+      checks.rows.push_back(
+          {report.point.name,
+           fmt::format("{:.5f}", 1e3 * report.check->quantile),
+           fmt::format("{:.5f}", 1e3 * report.check->repeated_quantile),
+           fmt::format("{:.5f}", 1e3 * report.check->standard_error),
+           fmt::format("{:.4f}", report.check->repeated_rms / report.check->rms),
+           CoverageText(CoverageOf(report.check->inside, report.check->draws, 0.95)),
+           report.check->agrees ? "yes" : "no"});
+  if (!checks.rows.empty()) page->Table(checks);
+  page->Note(
+      "The length that the error of the point does not exceed with 95 %; noise counts as known. "
+      "Coverage: the share of the repetitions, and the 95 % limits of its probability that so many "
+      "repetitions confirm (binomial, Clopper and Pearson).");
+}
+
+}  // namespace
+
+void AddLinearizedAgainstNonlinear(const Audit& audit, HtmlPage* page) {
+  page->Section("Linearized against nonlinear");
+  if (audit.grown)
+    page->Paragraph(
+        "Of base and tool alone, from the poses without the effects as the joint fit has them; "
+        "what "
+        "is repeated below is the joint fit.");
+  AddMethods(audit.comparison, page);
+  page->Heading("Parameter by parameter");
+  page->Table(ParameterTable(audit));
+  page->Note(
+      "u: standard uncertainty of the nonlinear solution by poses. Δ: linearized less nonlinear. "
+      "Its u, by u: the ratio of both standard uncertainties. The paper's iteration weighs all "
+      "poses alike (1 m as 1 rad), so that it is off "
+      "by "
+      "noise, and less certain, where the nonlinear solution weighs by the noise; the twist "
+      "iteration has its weights, and should end where it does: 0 off and a ratio of 1.");
+  if (!audit.linearity.solutions.empty() && !audit.linearity.solutions[0].points.empty()) {
+    page->Heading("At the named points");
+    page->Table(PointTable(audit));
+    page->Note(
+        "How far apart the linearized and the nonlinear solution predict a point of the tool, in "
+        "the middle of the workspace and at most over the places of its grid; and by how much "
+        "the covariance of the one makes the point less certain than that of the other.");
+  }
+  AddPropagation(audit.comparison.propagation, page);
+  if (audit.comparison.propagation.done) AddRepetition(audit, page);
+}
+
+}  // namespace hexcal
