@@ -57,7 +57,7 @@ HtmlTable PointTable(const Audit& audit) {
                       {"method"},
                       {"off at the centre, mm", true},
                       {"off at most, mm", true},
-                      {"RMS by the calibration, over the nonlinear one's", true}},
+                      {"RMS ratio", true}},
                      {}};
   for (std::size_t p = 0; p < audit.requirements.points.size(); ++p)
     for (const LinearizedSolution& solution : audit.linearity.solutions)
@@ -75,8 +75,8 @@ void AddRepetition(const Audit& audit, HtmlPage* page) {
                        {"first order, mm", true},
                        {"by repetition, mm", true},
                        {"standard error, mm", true},
-                       {"RMS by repetition over first order", true},
-                       {"not longer than by first order, nominally 95 %", true},
+                       {"RMS ratio", true},
+                       {"covered, nominally 95 %", true},
                        {"agree"}},
                       {}};
   for (const PointReport& report : audit.points)
@@ -92,7 +92,9 @@ void AddRepetition(const Audit& audit, HtmlPage* page) {
   if (!checks.rows.empty()) page->Table(checks);
   page->Note(
       "The length that the error of the point does not exceed with 95 %; noise counts as known. "
-      "Coverage: the share of the repetitions, and the 95 % limits of its probability that so many "
+      "RMS "
+      "ratio: by repetition, by first order. Covered: the share of the repetitions that are no "
+      "longer than by first order, and the 95 % limits of its probability that so many "
       "repetitions confirm (binomial, Clopper and Pearson).");
 }
 
@@ -120,8 +122,8 @@ void AddLinearizedAgainstNonlinear(const Audit& audit, HtmlPage* page) {
     page->Table(PointTable(audit));
     page->Note(
         "How far apart the linearized and the nonlinear solution predict a point of the tool, in "
-        "the middle of the workspace and at most over the places of its grid; and by how much "
-        "the covariance of the one makes the point less certain than that of the other.");
+        "the middle of the workspace and at most over the places of its grid. RMS ratio: of the "
+        "error that the calibration makes there, linearized by nonlinear.");
   }
   AddPropagation(audit.comparison.propagation, page);
   if (audit.comparison.propagation.done) AddRepetition(audit, page);
