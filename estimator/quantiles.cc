@@ -8,6 +8,7 @@
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <limits>
 
 namespace hexcal {
 namespace {
@@ -25,6 +26,14 @@ using FisherF = boost::math::fisher_f_distribution<double, Policy>;
 template <typename Distribution>
 double Tail(const Distribution& distribution, double x) {
   return boost::math::cdf(boost::math::complement(distribution, x));
+}
+
+// Of a statistic that cannot be negative. What comes of numbers that somebody changed may be
+// anything: then there is no probability, where Boost throws.
+template <typename Distribution>
+double TailOfSquare(const Distribution& distribution, double x) {
+  if (!(x >= 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  return std::isinf(x) ? 0.0 : Tail(distribution, x);
 }
 
 }  // namespace
@@ -50,7 +59,7 @@ double ChiSquareQuantile(double probability, double degrees_of_freedom) {
 }
 
 double ChiSquareTail(double x, double degrees_of_freedom) {
-  return Tail(ChiSquare(degrees_of_freedom), x);
+  return TailOfSquare(ChiSquare(degrees_of_freedom), x);
 }
 
 double ChiSquareNoncentrality(double alpha, double power, double degrees_of_freedom) {
@@ -66,7 +75,7 @@ double FisherFQuantile(double probability, double numerator_dof, double denomina
 }
 
 double FisherFTail(double x, double numerator_dof, double denominator_dof) {
-  return Tail(FisherF(numerator_dof, denominator_dof), x);
+  return TailOfSquare(FisherF(numerator_dof, denominator_dof), x);
 }
 
 double FisherFDensity(double x, double numerator_dof, double denominator_dof) {

@@ -13,13 +13,13 @@ double StudentTQuantile(double probability, double degrees_of_freedom);
 double StudentTTail(double x, double degrees_of_freedom);
 
 double ChiSquareQuantile(double probability, double degrees_of_freedom);
-double ChiSquareTail(double x, double degrees_of_freedom);  // x from 0
+double ChiSquareTail(double x, double degrees_of_freedom);  // x from 0; NaN below
 // The noncentrality with which chi-square exceeds the limit that it else exceeds with probability
 // alpha, with this power; above alpha, below 1.
 double ChiSquareNoncentrality(double alpha, double power, double degrees_of_freedom);
 
 double FisherFQuantile(double probability, double numerator_dof, double denominator_dof);
-double FisherFTail(double x, double numerator_dof, double denominator_dof);  // x from 0
+double FisherFTail(double x, double numerator_dof, double denominator_dof);  // x from 0; NaN below
 double FisherFDensity(double x, double numerator_dof, double denominator_dof);
 
 // The 95 % (or another confidence) limits of a probability that this many successes in so many

@@ -70,6 +70,17 @@ TEST(Quantiles, TailsAreTheClosedForms) {
   EXPECT_EQ(ChiSquareTail(1e6, 6.0), 0.0);
 }
 
+// As a history's numbers may be, once somebody has changed them.
+TEST(Quantiles, TailsOfWhatIsNoSquareAreNoNumber) {
+  for (const double x : {-1e-300, -1.0, -HUGE_VAL, std::nan("")}) {
+    EXPECT_TRUE(std::isnan(ChiSquareTail(x, 12.0))) << x;
+    EXPECT_TRUE(std::isnan(FisherFTail(x, 12.0, 5.0))) << x;
+  }
+  EXPECT_EQ(ChiSquareTail(HUGE_VAL, 12.0), 0.0);
+  EXPECT_EQ(FisherFTail(HUGE_VAL, 12.0, 5.0), 0.0);
+  EXPECT_EQ(ChiSquareTail(0.0, 12.0), 1.0);
+}
+
 TEST(Quantiles, AndTailsUndoEachOther) {
   for (const double p : {0.5, 0.95, 0.999, 1.0 - 1e-6}) {
     EXPECT_NEAR(StudentTTail(StudentTQuantile(p, 7.5), 7.5), 1.0 - p, 1e-12);
