@@ -174,6 +174,7 @@ class Grower {
         std::max(1, estimate->degrees_of_freedom - static_cast<int>(fit.free.size()));
     estimate->noise_scale = std::sqrt(estimate->chi_square / estimate->degrees_of_freedom);
     const bool is_scaled = estimate->noise.estimated;
+    work_->is_noise_estimated = is_scaled;
     if (is_scaled) work_->noise_scale = estimate->noise_scale;
     SetCommon();
     estimate->covariance_unscaled = work_->CovarianceUnscaled().topLeftCorner<12, 12>();

@@ -31,6 +31,7 @@ struct GrownSolution {
   GrownProblem::Data data;                 // with the noise of the last fit
   std::vector<GrownEffect> effects;        // as they went into the last fit
   GrownFit fit;
+  bool is_noise_estimated = false;
   double noise_scale = 1.0;  // of the last fit's noise; 1 where it is stated
   // Of a tracker that stood still: its common error, which moves the base alone.
   Matrix6d common = Matrix6d::Zero();

@@ -48,6 +48,15 @@ GrownTarget::GrownTarget(std::shared_ptr<const GrownSolution> solution)
   const Eigen::MatrixXd& of_fit = solution_->fit.covariance;
   by_priors_ = std::pow(solution_->noise_scale, 2) * of_fit *
                InformationOfPriors(*solution_).asDiagonal() * of_fit;
+  if (!solution_->is_noise_estimated) return;
+  levels_ = LevelsOf(*solution_);
+  covariance_ = levels_->covariance;
+  covariance_.topLeftCorner<6, 6>() += solution_->common;
+}
+
+std::optional<double> GrownTarget::FreedomOf(const Eigen::MatrixXd& j) const {
+  if (!levels_) return std::nullopt;
+  return levels_->FreedomOf(j);
 }
 
 Visit GrownTarget::VisitAt(const Pose3d& base_from_platform, int row) const {
@@ -103,6 +112,7 @@ std::optional<GrownTarget::Uncertain> GrownTarget::At(const Pose3d& base_from_pl
 GrownTarget GrownTarget::OfKnownNoise() const {
   GrownTarget known = *this;
   known.covariance_ = solution_->CovarianceUnscaled();
+  known.levels_.reset();
   const double unscale = 1.0 / std::pow(solution_->noise_scale, 2);
   known.by_priors_ *= unscale;
   known.of_known_effects_.topLeftCorner<6, 6>() -= solution_->common;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "estimator/grown_levels.h"
 #include "estimator/grown_solution.h"
 #include "model/place_visits.h"
 #include "residuals/pose_error.h"
@@ -48,6 +49,9 @@ class GrownTarget {
   const Eigen::MatrixXd& covariance() const { return covariance_; }
   const Matrix12d& covariance_of_known_effects() const { return of_known_effects_; }
   const Eigen::MatrixXd& covariance_by_priors() const { return by_priors_; }
+  // With which the trace of j covariance() j' is known, j by all parameters; where the noise was
+  // estimated.
+  std::optional<double> FreedomOf(const Eigen::MatrixXd& j) const;
   // The same machine, its noise as known as the fit took it to be.
   GrownTarget OfKnownNoise() const;
 
@@ -58,6 +62,7 @@ class GrownTarget {
 
   std::shared_ptr<const GrownSolution> solution_;
   PlaceVisits places_;
+  std::optional<GrownLevels> levels_;
   Eigen::MatrixXd covariance_, by_priors_;
   Matrix12d of_known_effects_;
 };

@@ -85,7 +85,8 @@ TargetError::TargetError(const Estimate& estimate,
 GrownTarget::Chain TargetError::Calibration(const Pose3d& base_from_platform,
                                             const Eigen::Vector3d& p_in_tool,
                                             int row,
-                                            TargetCovariance* target) const {
+                                            TargetCovariance* target,
+                                            double* degrees_of_freedom) const {
   if (!grown_) {
     const Eigen::Matrix<double, 3, 12> j = TargetJacobian(mounts_, base_from_platform, p_in_tool);
     target->calibration = j * covariance_ * j.transpose();
@@ -99,6 +100,7 @@ GrownTarget::Chain TargetError::Calibration(const Pose3d& base_from_platform,
   const Eigen::MatrixXd j = PointJacobian(at->chain.WorldFromTool(), p_in_tool) * at->by_parameters;
   const Eigen::MatrixXd by_mounts = j.leftCols<12>();
   target->calibration = j * grown_->covariance() * j.transpose();
+  *degrees_of_freedom = grown_->FreedomOf(j).value_or(degrees_of_freedom_);
   target->of_effects = target->calibration -
                        by_mounts * grown_->covariance_of_known_effects() * by_mounts.transpose();
   target->by_priors = j * grown_->covariance_by_priors() * j.transpose();
@@ -109,12 +111,14 @@ TargetCovariance TargetError::At(const Pose3d& base_from_platform,
                                  const Eigen::Vector3d& p_in_tool,
                                  int row) const {
   TargetCovariance target;
-  const GrownTarget::Chain chain = Calibration(base_from_platform, p_in_tool, row, &target);
+  double freedom = degrees_of_freedom_;
+  const GrownTarget::Chain chain =
+      Calibration(base_from_platform, p_in_tool, row, &target, &freedom);
   const Pose3d world_from_platform = chain.WorldFromPlatform();
   const Pose3d world_from_tool = chain.WorldFromTool();
   target.p_in_world = world_from_tool * p_in_tool;
   target.total = target.calibration;
-  double per_freedom = std::pow(target.calibration.trace(), 2) / degrees_of_freedom_;
+  double per_freedom = std::pow(target.calibration.trace(), 2) / freedom;
   for (const ErrorSource& source : sources_) {
     Matrix36d carry = Matrix36d::Zero();
     switch (source.site) {

@@ -69,7 +69,8 @@ class TargetError {
   GrownTarget::Chain Calibration(const Pose3d& base_from_platform,
                                  const Eigen::Vector3d& p_in_tool,
                                  int row,
-                                 TargetCovariance* target) const;
+                                 TargetCovariance* target,
+                                 double* degrees_of_freedom) const;
 
   BaseAndTool mounts_;
   Matrix12d covariance_;  // of the 12, as CoverageCovariance

@@ -68,13 +68,24 @@ struct ModelCalibration {
   std::shared_ptr<const GrownTarget> target;
 };
 
-// Of one drawn measurement. is_stated: its noise.
+// Measured poses with one noise along all axes, as is assumed where the noise is not stated.
+inline Dataset PlanOfPoses(const Dataset& plan) {
+  Dataset poses = plan;
+  Measurement& measurement = poses.measurement.emplace();
+  measurement.kind = Measurement::Kind::kPoses;
+  measurement.pose_noise =
+      PoseNoise{Eigen::Vector3d::Constant(3e-5), Eigen::Vector3d::Constant(1.5e-4)};
+  return poses;
+}
+
+// Of one drawn measurement, of markers with their noise stated, or of poses without.
 inline std::unique_ptr<ModelCalibration> CalibrateModel(const ModelScene& scene,
                                                         std::uint64_t seed,
                                                         bool is_stated) {
   auto made = std::make_unique<ModelCalibration>();
-  made->dataset = Simulate(scene.plan, scene.truth, {seed, 1.0, true});
-  if (!is_stated) made->dataset.measurement->marker_sigma.reset();
+  made->dataset =
+      Simulate(is_stated ? scene.plan : PlanOfPoses(scene.plan), scene.truth, {seed, 1.0, true});
+  if (!is_stated) made->dataset.measurement->pose_noise.reset();
   made->grown = CalibrateGrown(made->dataset, scene.model, {});
   made->target = std::make_shared<const GrownTarget>(made->grown.solution);
   return made;
