@@ -159,6 +159,17 @@ void AddModel(const Audit& audit, HtmlPage* page) {
   if (audit.grown) AddModelEffects(audit, page);
 }
 
+// On paper; the page itself decides nothing by them.
+void AddSignatures(const AuditIdentity& identity, HtmlPage* page) {
+  const std::string line(24, '_'), date(12, '_');
+  page->Section("Signatures");
+  page->Paragraph("Of report " + identity.id + ".");
+  page->Table({{{""}, {"name"}, {"date"}, {"signature"}},
+               {{"made by", line, date, line},
+                {"checked by", line, date, line},
+                {"approved by", line, date, line}}});
+}
+
 // For programs that are given nothing but the page.
 void AddData(const AuditIdentity& identity,
              const Audit& audit,
@@ -218,6 +229,7 @@ std::string AuditHtml(const AuditIdentity& identity,
   AddReproduction(record, audit.estimate.warnings, "result.json, model.yaml and audit.json", &page);
   AddData(identity, audit, result, &page);
   AddGlossary(&page);
+  AddSignatures(identity, &page);
   return page.Html();
 }
 

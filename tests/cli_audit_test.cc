@@ -74,6 +74,8 @@ TEST_F(CliAudit, LeavesItsFilesAndSaysWhatIsInThem) {
   EXPECT_THAT(result.out, HasSubstr("written to     out/neurobot"));
   EXPECT_THAT(Read("report.html"), HasSubstr("id=\"verdict\"><strong>PASS</strong>"));
   EXPECT_THAT(Read("report.html"), HasSubstr(audit["id"].get<std::string>()));
+  EXPECT_THAT(Read("report.html"),
+              HasSubstr("Of report " + audit["id"].get<std::string>() + ".</p>"));  // to be signed
   EXPECT_EQ(Json::parse(Read("result.json"))["residual"], "marker");
   const Json run = Json::parse(Read("run.json"));
   EXPECT_EQ(run["settings"]["folds"], "2");
