@@ -68,7 +68,10 @@ std::int64_t Database::Number(const std::string& sql) {
 }
 
 void Database::Prepare(const DatabaseKind& kind, Access access) {
-  if (access == Access::kRead) return CheckKind(kind);
+  if (access == Access::kRead) {
+    Run("PRAGMA cache_size=-256");  // kB, of 2000: who reads once through needs none
+    return CheckKind(kind);
+  }
   Run("PRAGMA synchronous=FULL");
   Transaction transaction(this);
   if (Number("SELECT count(*) FROM sqlite_master") == 0 && Number("PRAGMA application_id") == 0) {
