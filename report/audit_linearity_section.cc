@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "geometry/rotation_angles.h"
 #include "report/audit_sections.h"
 #include "report/comparison_sections.h"
 #include "report/coverage.h"
@@ -19,6 +20,27 @@ std::string UncertaintyText(const Estimate& nonlinear, int i) {
   return fmt::format("{:.4f} {}",
                      1e3 * std::sqrt(nonlinear.covariance(i, i)),
                      kParameters[i].is_angle ? "mrad" : "mm");
+}
+
+// The six numbers of Eq. (2) of each mount, as each solution has them.
+HtmlTable EstimateTable(const Audit& audit) {
+  constexpr const char* kNumbers[6] = {
+      "x, mm", "y, mm", "z, mm", "rx, mrad", "ry, mrad", "rz, mrad"};
+  std::vector<const BaseAndTool*> solutions = {&audit.comparison.reference.mounts};
+  HtmlTable table = {{{""}, {"nonlinear", true}}, {}};
+  for (const LinearizedSolution& solution : audit.linearity.solutions) {
+    solutions.push_back(&solution.estimate.mounts);
+    table.columns.push_back({solution.title, true});
+  }
+  for (int i = 0; i < 12; ++i) {
+    std::vector<std::string> row = {fmt::format("{} {}", i < 6 ? "base" : "tool", kNumbers[i % 6])};
+    for (const BaseAndTool* mounts : solutions)
+      row.push_back(fmt::format("{:.4f}",
+                                1e3 * VectorFromPose(i < 6 ? mounts->world_from_base
+                                                           : mounts->platform_from_tool)[i % 6]));
+    table.rows.push_back(row);
+  }
+  return table;
 }
 
 // Twelve rows: how far each linearized solution is off, and how its uncertainty compares.
@@ -108,6 +130,9 @@ void AddLinearizedAgainstNonlinear(const Audit& audit, HtmlPage* page) {
         "what "
         "is repeated below is the joint fit.");
   AddMethods(audit.comparison, page);
+  page->Heading("Side by side");
+  page->Table(EstimateTable(audit));
+  page->Note("The numbers of Eq. (2) by the poses, of T_B^W and of T_T^A.");
   page->Heading("Parameter by parameter");
   page->Table(ParameterTable(audit));
   page->Note(

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // hexcal audit from outside. What it decides is tested with the report.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -86,6 +87,22 @@ TEST_F(CliAudit, LeavesItsFilesAndSaysWhatIsInThem) {
   for (const char* name : {"audit.json", "result.json"})  // no times, no host
     EXPECT_FALSE(Json::parse(Read(name)).contains("host")) << name;
   EXPECT_EQ(Json::parse(Read("run.json"))["settings"]["tolerance"], "1e-12");
+}
+
+// The solutions side by side are those that calibrate finds alone.
+TEST_F(CliAudit, TheReportHasTheEstimatesOfEachSolution) {
+  ASSERT_EQ(Audit({}).status, 0);
+  std::string row = "<td>base x, mm</td>";
+  for (const char* solver : {"--solver=nonlinear", "--solver=linearized"}) {
+    const ProgramResult found =
+        RunHexcal({{"calibrate", kExample + "dataset.yaml", solver, "--residual=pose", "--out=c"},
+                   folder.Path("")});
+    ASSERT_EQ(found.status, 0) << found.err;
+    const Json result = Json::parse(folder.Read("c/neurobot/result.json"));
+    row += fmt::format("<td class=\"number\">{:.4f}</td>",
+                       1e3 * result["world_from_base"]["xyz"][0].get<double>());
+  }
+  EXPECT_THAT(Read("report.html"), HasSubstr(row));
 }
 
 TEST_F(CliAudit, TheReportHasTheCallAsAShellReadsItBack) {
