@@ -4,6 +4,16 @@
 #include <fmt/format.h>
 
 namespace hexcal {
+namespace {
+
+// Of a hostile file: no tab, line break or escape sequence reaches the terminal or a log.
+std::string OnOneLine(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  return text;
+}
+
+}  // namespace
 
 std::string Location::ToString() const {
   std::string text = file ? *file : std::string("input");
@@ -18,9 +28,9 @@ Location FileLocation(std::string file) {
 
 InputError::InputError(const Location& where, std::string_view found, std::string_view expected)
     : std::runtime_error(
-          fmt::format("{}: found {}, expected {}", where.ToString(), found, expected)) {}
+          OnOneLine(fmt::format("{}: found {}, expected {}", where.ToString(), found, expected))) {}
 
 InputError::InputError(const Location& where, std::string_view message)
-    : std::runtime_error(fmt::format("{}: {}", where.ToString(), message)) {}
+    : std::runtime_error(OnOneLine(fmt::format("{}: {}", where.ToString(), message))) {}
 
 }  // namespace hexcal
