@@ -119,7 +119,7 @@ Decision Decide(const Audit& audit,
     return decision;
   }
   if (places.empty()) {
-    decision.reason = "The legs reach no place of the workspace.";
+    decision.reason = "The legs do not reach the middle of the workspace.";
     return decision;
   }
   const NamedPoint& point = audit.requirements.points[requirement.point];

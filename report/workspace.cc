@@ -56,7 +56,25 @@ bool IsReached(const Dataset& dataset, const Pose3d& base_from_platform) {
   return lengths.minCoeff() >= limits[0] && lengths.maxCoeff() <= limits[1];
 }
 
+namespace {
+
+// Between a place that the legs reach and another, to a part in a thousand. Of a reach with a gap
+// in it, an edge.
+Vector6d FarthestReached(const Dataset& dataset, const Vector6d& from, const Vector6d& to) {
+  if (IsReached(dataset, PoseFromVector(to))) return to;
+  double in = 0.0, out = 1.0;
+  for (int i = 0; i < 10; ++i) {
+    const double middle = 0.5 * (in + out);
+    (IsReached(dataset, PoseFromVector(from + middle * (to - from))) ? in : out) = middle;
+  }
+  return from + in * (to - from);
+}
+
+}  // namespace
+
 std::vector<Place> GridOf(const Workspace& workspace, const Dataset& dataset) {
+  const Vector6d centre = workspace.Centre();
+  if (!IsReached(dataset, PoseFromVector(centre))) return {};
   int count = 1;
   for (int i = 0; i < 6; ++i) count *= kLevels;
   std::vector<Place> places;
@@ -66,8 +84,7 @@ std::vector<Place> GridOf(const Workspace& workspace, const Dataset& dataset) {
       const auto& [low, high] = workspace.box[i];
       y[i] = low + (high - low) * (rest % kLevels) / (kLevels - 1);
     }
-    Place place = {"", PoseFromVector(y)};
-    if (IsReached(dataset, place.base_from_platform)) places.push_back(std::move(place));
+    places.push_back({"", PoseFromVector(FarthestReached(dataset, centre, y))});
   }
   return places;
 }

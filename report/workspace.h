@@ -30,8 +30,9 @@ struct Place {
 Workspace MakeWorkspace(const std::optional<std::array<std::array<double, 2>, 6>>& stated,
                         const Observations& observations);
 
-// The ends and the middle of every range, 3^6 places, without those that the legs do not reach
-// (where the dataset says how long they may be).
+// The ends and the middle of every range, 3^6 places. Where the dataset says how long the legs may
+// be and they do not reach a place, the farthest that they reach on the way to it from the centre:
+// the edge of their reach is among the places. Empty where the centre is beyond their reach.
 std::vector<Place> GridOf(const Workspace& workspace, const Dataset& dataset);
 
 // The poses of the calibration.
