@@ -16,7 +16,7 @@ constexpr double kUpper = 0.975;  // of Intervals' half widths
 // Beyond this t is the normal distribution to all digits that matter.
 constexpr double kMany = 1e7;
 
-Eigen::Matrix3d Carried(const Matrix36d& jacobian, const ErrorSource& source) {
+Eigen::Matrix3d ShareOf(const Matrix36d& jacobian, const ErrorSource& source) {
   if (source.covariance_in_tool) {
     const Eigen::Matrix3d turn = jacobian.leftCols<3>();
     return turn * *source.covariance_in_tool * turn.transpose();
@@ -107,6 +107,15 @@ GrownTarget::Chain TargetError::Calibration(const Pose3d& base_from_platform,
   return at->chain;
 }
 
+std::optional<TargetError::Carried> TargetError::CarriedTo(const Pose3d& base_from_platform,
+                                                           const Eigen::Vector3d& p_in_tool) const {
+  if (!grown_) return Carried{TargetJacobian(mounts_, base_from_platform, p_in_tool), covariance_};
+  const auto at = grown_->At(base_from_platform, GrownTarget::kNoRow);
+  if (!at) return std::nullopt;
+  return Carried{PointJacobian(at->chain.WorldFromTool(), p_in_tool) * at->by_parameters,
+                 grown_->covariance()};
+}
+
 TargetCovariance TargetError::At(const Pose3d& base_from_platform,
                                  const Eigen::Vector3d& p_in_tool,
                                  int row) const {
@@ -138,7 +147,8 @@ TargetCovariance TargetError::At(const Pose3d& base_from_platform,
         carry.leftCols<3>() = world_from_tool.rotation.toRotationMatrix();
         break;
     }
-    target.shares.push_back(Carried(carry, source));
+    target.shares.push_back(ShareOf(carry, source));
+    target.sensitivities.emplace_back(carry.leftCols<3>().norm(), carry.rightCols<3>().norm());
     target.total += target.shares.back();
     per_freedom += std::pow(target.shares.back().trace(), 2) / source.degrees_of_freedom;
   }

@@ -40,6 +40,8 @@ struct TargetCovariance {
   // Parts of it: what would go were the effects of the model known; what rests on their priors.
   Eigen::Matrix3d of_effects = Eigen::Matrix3d::Zero(), by_priors = Eigen::Matrix3d::Zero();
   std::vector<Eigen::Matrix3d> shares;  // of the sources, in their order
+  // RMS length that 1 m and 1 rad of each coordinate of a source make, m/m and m/rad.
+  std::vector<Eigen::Vector2d> sensitivities;
   Eigen::Matrix3d total;
   double degrees_of_freedom = 0.0;  // with which total is known (Welch-Satterthwaite, by traces)
 
@@ -61,6 +63,16 @@ class TargetError {
   TargetCovariance At(const Pose3d& base_from_platform,
                       const Eigen::Vector3d& p_in_tool,
                       int row = GrownTarget::kNoRow) const;
+
+  // What At makes the calibration's share of: the point's derivative by the calibration's numbers
+  // (the 12, then the free ones of the effects), axes of frame W, and their covariance.
+  struct Carried {
+    Eigen::Matrix<double, 3, Eigen::Dynamic> by_parameters;
+    Eigen::MatrixXd covariance;
+  };
+  // Nothing where effects put the legs out of reach.
+  std::optional<Carried> CarriedTo(const Pose3d& base_from_platform,
+                                   const Eigen::Vector3d& p_in_tool) const;
 
   const std::vector<ErrorSource>& sources() const { return sources_; }
 

@@ -69,30 +69,6 @@ Chart CorrelationChart(const Estimate& estimate) {
   return chart;
 }
 
-Chart BudgetChart(const PointReport& report) {
-  Chart chart;
-  chart.title = fmt::format("What the error of {} is made of", report.point.name);
-  chart.shows =
-      "the part of the variance that each source has where the error is worst in the workspace.";
-  chart.good = "no single surprise: the longest bar is where better work pays.";
-  Json names = Json::array(), shares = Json::array();
-  for (const BudgetRow& row : report.budget) {
-    names.push_back(EscapeLabel(row.name));
-    shares.push_back(100.0 * row.share);
-  }
-  chart.data = Json::array({{{"type", "bar"},
-                             {"orientation", "h"},
-                             {"y", names},
-                             {"x", shares},
-                             {"marker", {{"color", "@after"}}}}});
-  Json y = OpenAxis("");
-  y["autorange"] = "reversed";
-  chart.layout = {{"height", 130 + 34 * static_cast<int>(report.budget.size())},
-                  {"xaxis", Axis("% of the variance", true)},
-                  {"yaxis", y}};
-  return chart;
-}
-
 Chart MapChart(const PointReport& report) {
   const AccuracyMap& map = report.map;
   Chart chart;

@@ -11,9 +11,6 @@ namespace hexcal {
 // The 12 x 12 correlations.
 Chart CorrelationChart(const Estimate& estimate);
 
-// What a point's error is made of.
-Chart BudgetChart(const PointReport& report);
-
 // A point's error over the workspace.
 Chart MapChart(const PointReport& report);
 

@@ -119,7 +119,8 @@ PointAt AtPlace(const TargetError& error, const NamedPoint& point, const Place& 
   return {place,
           at.Rms(),
           at.Quantile(kProbability),
-          calibration > 0.0 ? at.by_priors.trace() / calibration : 0.0};
+          calibration > 0.0 ? at.by_priors.trace() / calibration : 0.0,
+          at.degrees_of_freedom};
 }
 
 PointReport ReportPoint(const Audit& audit,
@@ -134,7 +135,7 @@ PointReport ReportPoint(const Audit& audit,
   report.worst =
       AtPlace(error, point, WorstPlace(error, point.p_in_tool, places, kProbability).place);
   const Pose3d& pose = report.worst.place.base_from_platform;
-  report.budget = BudgetOf(audit, point, error.At(pose, point.p_in_tool));
+  report.budget = BudgetOf(audit, point, pose);
   const PropagationCheck& propagation = audit.comparison.propagation;
   if (propagation.done)
     report.check = CheckTarget(audit.grown ? audit.estimate : audit.comparison.reference,

@@ -11,6 +11,7 @@
 #include "estimator/pose_check.h"
 #include "estimator/target_check.h"
 #include "report/accuracy_map.h"
+#include "report/budget.h"
 #include "report/change.h"
 #include "report/correlation.h"
 #include "report/frame_graph.h"
@@ -28,29 +29,20 @@ namespace hexcal {
 enum class Compliance { kNotAsked, kPass, kFail, kInconclusive };
 std::string_view NameOf(Compliance compliance);  // none, PASS, FAIL, INCONCLUSIVE
 
-// A row of the uncertainty budget of a point at a place; rms is the root of the trace, m.
-struct BudgetRow {
-  std::string name;
-  std::string origin;  // where its value is from
-  char type = 'B';     // of evaluation (JCGM 100)
-  double rms = 0.0;
-  double share = 0.0;  // of the variance
-  double degrees_of_freedom = 0.0;
-};
-
 // The error of a point at a place.
 struct PointAt {
   Place place;
   double rms = 0.0;
   double length_95 = 0.0;  // not exceeded with 95 %, m
   double by_priors = 0.0;  // share of the calibration's variance that rests on effects' priors
+  double degrees_of_freedom = 0.0;  // of the sum
 };
 
 // A point of the tool, in the middle of the workspace and where it is worst in it.
 struct PointReport {
   NamedPoint point;
   PointAt centre, worst;
-  std::vector<BudgetRow> budget;     // where it is worst
+  Budget budget;                     // where it is worst
   std::optional<TargetCheck> check;  // there; nothing where the draws could not be made
   AccuracyMap map;
 };

@@ -72,21 +72,14 @@ Json PivotOf(const NamedPoint& point) {
 Json Points(const Audit& audit) {
   Json list = Json::array();
   for (const PointReport& report : audit.points) {
-    Json budget = Json::array();
-    for (const BudgetRow& row : report.budget)
-      budget.push_back({{"source", row.name},
-                        {"from", row.origin},
-                        {"type", std::string(1, row.type)},
-                        {"rms", row.rms},
-                        {"share", row.share},
-                        {"degrees_of_freedom", JsonNumber(row.degrees_of_freedom)}});
     list.push_back({{"name", report.point.name},
                     {"xyz", JsonList(report.point.p_in_tool)},
                     {"standard_deviation", Deviations(report.point)},
                     {"pivot", PivotOf(report.point)},
                     {"centre", AtObject(report.centre)},
                     {"worst", AtObject(report.worst)},
-                    {"budget", budget},
+                    {"budget", JsonBudget(report.budget)},
+                    {"calibration", JsonParameters(report.budget)},
                     {"monte_carlo", report.check ? CheckObject(*report.check) : Json()}});
   }
   return list;

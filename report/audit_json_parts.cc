@@ -104,4 +104,34 @@ Json JsonChange(const Audit& audit) {
           {"over_own", Twelve(change.over_own)}};
 }
 
+Json JsonBudget(const Budget& budget) {
+  Json list = Json::array();
+  for (const BudgetRow& row : budget.rows)
+    list.push_back({{"source", row.name},
+                    {"from", row.origin},
+                    {"type", std::string(1, row.type)},
+                    {"quantity", std::string(NameOf(row.quantity))},
+                    {"value", JsonNumber(row.value)},
+                    {"distribution", std::string(NameOf(row.spread))},
+                    {"divisor", row.divisor},
+                    {"sensitivity", JsonNumber(row.sensitivity)},
+                    {"rms", JsonNumber(row.contribution)},
+                    {"share", JsonNumber(row.share)},
+                    {"degrees_of_freedom", JsonNumber(row.degrees_of_freedom)}});
+  return list;
+}
+
+Json JsonParameters(const Budget& budget) {
+  Json list = Json::array();
+  for (const ParameterRow& row : budget.parameters)
+    list.push_back({{"parameter", row.name},
+                    {"unit", row.unit},
+                    {"standard_uncertainty", JsonNumber(row.value)},
+                    {"sensitivity", JsonNumber(row.sensitivity)},
+                    {"rms", JsonNumber(row.contribution)},
+                    {"share", JsonNumber(row.share)},
+                    {"degrees_of_freedom", JsonNumber(row.degrees_of_freedom)}});
+  return {{"parameters", list}, {"correlations", JsonNumber(budget.correlations)}};
+}
+
 }  // namespace hexcal

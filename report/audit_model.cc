@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "report/effect_json.h"
+#include "report/effect_numbers.h"
 #include "report/quantity.h"
 
 namespace hexcal {
@@ -67,16 +68,12 @@ void AddModelEffects(const Audit& audit, HtmlPage* page) {
       continue;
     }
     for (const int number : solution.effects[e].free) {
-      const ParameterKind& parameter = kind->ParameterOf(number);
       const std::string unit(kind->UnitOf(number));
       const double sigma = effect.standard_deviation[number];
-      table.rows.push_back(
-          {effect.name,
-           parameter.size == 1
-               ? std::string(parameter.name)
-               : fmt::format("{} {}", parameter.name, number - kind->OffsetOf(parameter.name) + 1),
-           SizeText(effect.parameters[number], unit),
-           std::isfinite(sigma) ? SizeText(sigma, unit) : "not determined"});
+      table.rows.push_back({effect.name,
+                            FreeNumberName(*kind, number),
+                            SizeText(effect.parameters[number], unit),
+                            std::isfinite(sigma) ? SizeText(sigma, unit) : "not determined"});
     }
   }
   if (solution.data.pose_map) table.rows.push_back({"pose map", "as in the model", "", ""});

@@ -16,48 +16,6 @@ constexpr const char* kNumbers[6] = {"x, mm", "y, mm", "z, mm", "rx, mrad", "ry,
 
 }  // namespace
 
-void AddBudget(const Audit& audit, HtmlPage* page) {
-  page->Section("Uncertainty budget");
-  page->Paragraph(
-      "The error of a point is made of the calibration's, carried to the point by J Σ Jᵀ, and of "
-      "those that the machine has wherever it is used. Figures are RMS lengths where the error is "
-      "worst in the workspace.");
-  if (!audit.robot_is_stated)
-    page->Paragraph(
-        "Nothing is stated of the robot's own error; it is NOT in this budget, and no requirement "
-        "passes without it.");
-  std::vector<Chart> charts;
-  for (const PointReport& report : audit.points) {
-    page->Heading(report.point.name);
-    HtmlTable table = {{{"source"},
-                        {"value from"},
-                        {"type"},
-                        {"RMS, mm", true},
-                        {"of the variance", true},
-                        {"degrees of freedom", true}},
-                       {}};
-    for (const BudgetRow& row : report.budget)
-      table.rows.push_back({row.name,
-                            row.origin,
-                            std::string(1, row.type),
-                            fmt::format("{:.4f}", 1e3 * row.rms),
-                            ShareText(row.share),
-                            std::isfinite(row.degrees_of_freedom)
-                                ? fmt::format("{:.0f}", row.degrees_of_freedom)
-                                : "∞"});
-    table.rows.push_back(
-        {"combined", "", "", fmt::format("{:.4f}", 1e3 * report.worst.rms), "100 %", ""});
-    table.chosen_row = static_cast<int>(table.rows.size()) - 1;
-    page->Table(table);
-    charts.push_back(BudgetChart(report));
-  }
-  page->Figures(charts);
-  page->Note(
-      "Type A: evaluated by statistics of observations; type B: otherwise (JCGM 100:2008). "
-      "Calibration "
-      "counts as type A although stated noise enters its weights.");
-}
-
 void AddAccuracy(const Audit& audit, HtmlPage* page) {
   page->Section("Accuracy over the workspace");
   HtmlTable box = {{{"T_A^B, Eq. (2)"}, {"from", true}, {"to", true}}, {}};

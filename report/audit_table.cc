@@ -23,9 +23,11 @@ std::string PointLines(const PointReport& report) {
                       SizeText(report.worst.length_95, "m"),
                       SizeText(report.worst.rms, "m"),
                       WordsOf(report.worst.place));
-  for (const BudgetRow& row : report.budget)
-    text += fmt::format(
-        "    {:<28}{:>10} RMS {:>9}\n", row.name, SizeText(row.rms, "m"), ShareText(row.share));
+  for (const BudgetRow& row : report.budget.rows)
+    text += fmt::format("    {:<32}{:>10} RMS {:>9}\n",
+                        LabelOf(row),
+                        SizeText(row.contribution, "m"),
+                        ShareText(row.share));
   if (report.check)
     text += fmt::format("    by {} repetitions {} ({} by first order, noise as known): {}\n",
                         report.check->draws,

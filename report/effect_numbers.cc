@@ -91,6 +91,12 @@ bool IsShown(const EffectNumber& number) {
   return number.is_carried && (number.value != 0.0 || std::isfinite(number.standard_deviation));
 }
 
+std::string FreeNumberName(const EffectKind& kind, int number) {
+  const ParameterKind& parameter = kind.ParameterOf(number);
+  if (parameter.size == 1) return std::string(parameter.name);
+  return fmt::format("{} {}", parameter.name, number - kind.OffsetOf(parameter.name) + 1);
+}
+
 std::vector<EffectParameter> ParametersOf(const Effect& effect,
                                           const std::vector<std::string>& labels) {
   const EffectKind* kind = FindEffectKind(effect.name);

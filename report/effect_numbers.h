@@ -37,4 +37,7 @@ bool IsOfLegs(const Effect& unknown);
 std::vector<EffectParameter> ParametersOf(const Effect& effect,
                                           const std::vector<std::string>& labels);
 
+// A number of an effect of this kind: "scale", "gain 3".
+std::string FreeNumberName(const EffectKind& kind, int number);
+
 }  // namespace hexcal

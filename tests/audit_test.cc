@@ -73,7 +73,7 @@ TEST_F(AuditTest, PassesFailsOrDoesNotKnowByTheGuardBand) {
 TEST_F(AuditTest, GuardBandIsTwiceTheUncertaintyOfTheStandardDeviation) {
   const Audit audit = Make(5e-4, 0.0);
   const Decision& decision = audit.decisions[0];
-  const double share = audit.points[0].budget[0].share;
+  const double share = audit.points[0].budget.rows[0].share;
   const double dof = audit.estimate.degrees_of_freedom;
   EXPECT_NEAR(decision.guard / decision.value, 2.0 * share / std::sqrt(2.0 * dof), 1e-6);
 }
@@ -110,7 +110,7 @@ TEST_F(AuditTest, BudgetHoldsTheRobotsOwnError) {
   EXPECT_GT(with.decisions[0].value, without.decisions[0].value);
   double sum = 0.0;
   bool has_robot = false;
-  for (const BudgetRow& row : with.points[0].budget) {
+  for (const BudgetRow& row : with.points[0].budget.rows) {
     sum += row.share;
     has_robot = has_robot || row.name == "robot's own error";
   }

@@ -77,6 +77,14 @@ TEST_F(CliAuditModel, TheErrorHoldsTheEffectsUncertainty) {
   EXPECT_EQ(budget[0]["source"], "calibration of base and tool");
   EXPECT_EQ(budget[1]["source"], "effects of the model");
   EXPECT_GT(budget[1]["rms"], 0.0);
+  // The numbers of both: the 12 and the scale, which moves the tool by its correlations alone.
+  const Json& numbers = audit["points"][0]["calibration"]["parameters"];
+  ASSERT_EQ(numbers.size(), 13u);
+  EXPECT_EQ(numbers[12]["parameter"], "tracker_scale scale");
+  EXPECT_EQ(numbers[12]["sensitivity"], 0.0);
+  const double first = numbers[0]["rms"], share = numbers[0]["share"];
+  const double known = budget[0]["rms"], added = budget[1]["rms"];
+  EXPECT_NEAR(first * first / share / (known * known + added * added), 1.0, 1e-9);
   EXPECT_TRUE(audit["points"][0]["monte_carlo"]["agrees"]);
   EXPECT_EQ(audit["model"]["effects"][0]["name"], "tracker_scale");
   const double scale = audit["model"]["effects"][0]["parameters"]["scale"];

@@ -273,6 +273,7 @@ TEST(CliPivot, FeedsTheTipIntoTheAudit) {
   double trace = 0.0;
   for (std::size_t k = 0; k < 3; ++k) trace += tip["covariance"][k][k].get<double>();
   EXPECT_NEAR(row["rms"].get<double>(), std::sqrt(trace), 1e-12);
+  EXPECT_NEAR(row["value"].get<double>(), std::sqrt(trace / 3.0), 1e-12);  // of each coordinate
   const Json& repeated = point["monte_carlo"];
   EXPECT_NEAR(repeated["repeated_rms"].get<double>() / repeated["rms"].get<double>(), 1.0, 0.03);
   EXPECT_EQ(audit["inputs"].back()["file"], folder.Path("pivot.json"));
