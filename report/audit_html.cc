@@ -38,7 +38,7 @@ void AddVerdict(const Audit& audit, HtmlPage* page) {
                       {"probability", true},
                       {"limit, mm", true},
                       {"value, mm", true},
-                      {"guard band, mm", true}},
+                      {"guard band (k = 2), mm", true}},
                      {}};
   std::vector<std::string> places;
   for (const Decision& d : audit.decisions) {
@@ -60,9 +60,8 @@ void AddVerdict(const Audit& audit, HtmlPage* page) {
         "Decision rule, guarded acceptance (JCGM 106:2012, 8.3): PASS where value and guard band "
         "stay "
         "within the limit and nothing below speaks against it; FAIL where the value less the guard "
-        "band is beyond the limit; else INCONCLUSIVE. Guard band: twice the standard uncertainty "
-        "of "
-        "the value.");
+        "band is beyond the limit; else INCONCLUSIVE. Guard band: the expanded uncertainty of "
+        "the value, k = 2 (p = 95 %), by the degrees of freedom of the budget.");
   }
   if (!audit.doubts.empty()) {
     page->Heading("What keeps a requirement from passing");

@@ -32,8 +32,13 @@ void AddAccuracy(const Audit& audit, HtmlPage* page) {
           ? ""
           : "; it reaches beyond the poses that were measured, where nothing "
             "but the model speaks"));
-  HtmlTable table = {
-      {{"point"}, {"where"}, {"RMS, mm", true}, {"not exceeded with 95 %, mm", true}}, {}};
+  HtmlTable table = {{{"point"},
+                      {"where"},
+                      {"RMS, mm", true},
+                      {"not exceeded with p = 95 %, mm", true},
+                      {"k", true},
+                      {"degrees of freedom", true}},
+                     {}};
   std::vector<std::string> places;
   for (const PointReport& report : audit.points) {
     for (const auto& [name, at] :
@@ -41,11 +46,19 @@ void AddAccuracy(const Audit& audit, HtmlPage* page) {
       table.rows.push_back({report.point.name,
                             name,
                             fmt::format("{:.4f}", 1e3 * at->rms),
-                            fmt::format("{:.4f}", 1e3 * at->length_95)});
+                            fmt::format("{:.4f}", 1e3 * at->length_95),
+                            CoverageFactorText(at->length_95, at->rms),
+                            std::isfinite(at->degrees_of_freedom)
+                                ? fmt::format("{:.0f}", at->degrees_of_freedom)
+                                : "∞"});
     places.push_back(
         fmt::format("{}: worst at {}", report.point.name, WordsOf(report.worst.place)));
   }
   page->Table(table);
+  page->Note(
+      "k: the length that is not exceeded over the RMS. It lies between 1.614 (an error alike "
+      "along "
+      "all axes) and 1.960 (along one alone) where the degrees of freedom are many.");
   page->List(places);
   for (const PointReport& report : audit.points) page->Figure(MapChart(report));
 }

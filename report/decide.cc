@@ -55,14 +55,19 @@ std::string Sentence(const Decision& decision, const NamedPoint& point, const Au
   const std::string limit = SizeText(asked.limit, "m");
   if (decision.compliance == Compliance::kPass)
     return fmt::format("{} within the limit of {}.", size, limit);
-  if (decision.compliance == Compliance::kFail)
-    return fmt::format("{} beyond the limit of {}.", size, limit);
+  const std::string beyond = fmt::format(
+      "The error of {} may be {} long where it is worst (it is not longer with a "
+      "probability of {}); even {} less, its guard band, is beyond the limit of {}",
+      point.name,
+      SizeText(decision.value, "m"),
+      ShareText(asked.probability),
+      SizeText(decision.guard, "m"),
+      limit);
+  if (decision.compliance == Compliance::kFail) return beyond + ".";
   if (decision.value - decision.guard > asked.limit)
-    return fmt::format(
-        "{} beyond the limit of {}, but what is left over is less than the stated noise explains, "
-        "so that the error may be shorter.",
-        size,
-        limit);
+    return beyond +
+           ", but what is left over is less than the stated noise explains, so that the error may "
+           "be shorter.";
   if (decision.value + decision.guard > asked.limit)
     return fmt::format("{} neither surely within nor surely beyond the limit of {}.", size, limit);
   std::string why;

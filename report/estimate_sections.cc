@@ -9,6 +9,7 @@
 #include "geometry/rotation_angles.h"
 #include "report/accuracy_charts.h"
 #include "report/correlation.h"
+#include "report/quantity.h"
 #include "report/result_table.h"
 
 namespace hexcal {
@@ -27,7 +28,8 @@ HtmlTable MountTable(const Estimate& estimate, bool is_base) {
                       {"value of Eq. (2)", true},
                       {"its standard uncertainty", true},
                       {"along own axis: standard", true},
-                      {"expanded, 95 %", true},
+                      {"expanded, p = 95 %", true},
+                      {"coverage factor k", true},
                       {"degrees of freedom", true}},
                      {}};
   for (int i = 0; i < 6; ++i) {
@@ -38,12 +40,14 @@ HtmlTable MountTable(const Estimate& estimate, bool is_base) {
       return is_known && std::isfinite(value) ? fmt::format("{:.4f}", 1e3 * value)
                                               : "not determined";
     };
-    table.rows.push_back({kNumbers[i],
-                          fmt::format("{:.4f}", 1e3 * values[i]),
-                          number(sigmas[i]),
-                          number(std::sqrt(estimate.covariance(k, k))),
-                          number(estimate.intervals.half_width[k]),
-                          std::isfinite(dof) ? fmt::format("{:.0f}", dof) : "∞"});
+    table.rows.push_back(
+        {kNumbers[i],
+         fmt::format("{:.4f}", 1e3 * values[i]),
+         number(sigmas[i]),
+         number(std::sqrt(estimate.covariance(k, k))),
+         number(estimate.intervals.half_width[k]),
+         CoverageFactorText(estimate.intervals.half_width[k], std::sqrt(estimate.covariance(k, k))),
+         std::isfinite(dof) ? fmt::format("{:.0f}", dof) : "∞"});
   }
   return table;
 }
@@ -67,7 +71,9 @@ void AddMounts(const Estimate& estimate, HtmlPage* page) {
   page->Note(
       "Values and the first uncertainty are of the six numbers of Eq. (2). The others are of a "
       "small motion along and about the mount's own axes, as in the covariance of result.json. "
-      "Expanded: the truth lies within it with 95 %, each number by itself (Student's t).");
+      "Expanded: k times the standard uncertainty before it; the truth lies within it with p = "
+      "95 %, each number by itself (Student's t; where few poses told the noise, k has in it what "
+      "the weights' own error adds).");
   page->Figure(CorrelationChart(estimate));
   std::vector<std::string> strong;
   for (const Correlation& c : StrongCorrelations(estimate))

@@ -47,7 +47,8 @@ void AddPoint(const char* heading,
   HtmlTable table = {{{""},
                       {"value, mm", true},
                       {"standard uncertainty, mm", true},
-                      {"expanded, 95 %, mm", true},
+                      {"expanded, p = 95 %, mm", true},
+                      {"coverage factor k", true},
                       {"degrees of freedom", true}},
                      {}};
   for (int k = 0; k < 3; ++k) {
@@ -56,11 +57,13 @@ void AddPoint(const char* heading,
     const auto number = [&](double value) {
       return IsDetermined(result, row) ? fmt::format("{:.4f}", 1e3 * value) : "not determined";
     };
-    table.rows.push_back({std::string(1, "xyz"[k]),
-                          fmt::format("{:.4f}", 1e3 * point[k]),
-                          number(std::sqrt(result.covariance(row, row))),
-                          number(result.half_width[row]),
-                          std::isfinite(dof) ? fmt::format("{:.0f}", dof) : "∞"});
+    table.rows.push_back(
+        {std::string(1, "xyz"[k]),
+         fmt::format("{:.4f}", 1e3 * point[k]),
+         number(std::sqrt(result.covariance(row, row))),
+         number(result.half_width[row]),
+         CoverageFactorText(result.half_width[row], std::sqrt(result.covariance(row, row))),
+         std::isfinite(dof) ? fmt::format("{:.0f}", dof) : "∞"});
   }
   page->Table(table);
 }
@@ -122,7 +125,8 @@ std::string PivotHtml(const std::string& dataset,
   AddPoint("The tip in frame T", result.x.tip_in_tool, 0, result, &page);
   AddPoint("The pivot in frame W", result.x.pivot_in_world, 3, result, &page);
   page.Note(
-      "Expanded: the truth lies within it with 95 %, each number by itself (Student's t). Frame T "
+      "Expanded: k times the standard uncertainty; the truth lies within it with p = 95 %, each "
+      "number by itself (Student's t). Frame T "
       "is that of the tool's markers, W that in which the poses are given.");
   page.Section("The motion");
   page.Figures({PivotSceneChart(poses, result), TiltChart(result, options)});

@@ -79,4 +79,9 @@ std::string ShareText(double share) {
   return fmt::format("{:.3g} %", 100.0 * share);
 }
 
+std::string CoverageFactorText(double expanded, double standard) {
+  const double factor = expanded / standard;
+  return std::isfinite(factor) ? fmt::format("{:.3f}", factor) : std::string(kNone);
+}
+
 }  // namespace hexcal

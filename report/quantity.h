@@ -29,4 +29,7 @@ std::string ProbabilityText(double p);
 // "12 %"; a dash for no number.
 std::string ShareText(double share);
 
+// k of an expanded uncertainty, of both: "1.960"; a dash where either is no number.
+std::string CoverageFactorText(double expanded, double standard);
+
 }  // namespace hexcal
