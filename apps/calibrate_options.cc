@@ -121,7 +121,10 @@ ResultHeader HeaderOf(const std::string& dataset,
           by_markers ? "marker" : "pose",
           !linearized ? ""
           : paper     ? "paper"
-                      : "twist"};
+                      : "twist",
+          {},
+          options.loss,
+          options.covariance == CovarianceKind::kSandwich};
 }
 
 }  // namespace hexcal

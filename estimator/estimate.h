@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,6 +60,13 @@ struct NoiseSummary {
   NoiseSide assumed = NoiseSide::kTracker;
 };
 
+// What least squares leaves of the poses of a fit, each by its noise alone.
+struct NoiseMisfit {
+  double chi_square = 0.0;
+  int degrees_of_freedom = 0;
+  double Scale() const { return std::sqrt(chi_square / degrees_of_freedom); }
+};
+
 // A calibration with all that judges it.
 struct Estimate {
   BaseAndTool mounts;
@@ -75,6 +83,9 @@ struct Estimate {
   double rmsoe = 0.0;        // rad
   double chi_square = 0.0;
   int degrees_of_freedom = 0;
+  // Of a fit that weighs otherwise, under a loss or as the paper: chi_square has then another
+  // distribution, and says nothing of the noise.
+  std::optional<NoiseMisfit> least_squares = {};
 
   Matrix12d covariance_unscaled = Matrix12d::Zero();
   Matrix12d covariance = Matrix12d::Zero();  // the one to use
@@ -85,6 +96,12 @@ struct Estimate {
 
   // False: the 12 parameters cannot be trusted (exit status 4).
   bool IsTrustworthy() const { return converged && observability.null_directions == 0; }
+
+  // What a stated noise is to be judged by: chi-square of these degrees of freedom where it is
+  // right.
+  NoiseMisfit OfNoise() const {
+    return least_squares.value_or(NoiseMisfit{chi_square, degrees_of_freedom});
+  }
 };
 
 }  // namespace hexcal

@@ -29,6 +29,7 @@ class Judgement {
   void Run() {
     SetResiduals();
     SetCovariance();
+    if (HasLoss() || weighting_.paper_error) SetLeastSquares();
     SetIntervals();
     AddWarnings();
   }
@@ -105,6 +106,27 @@ class Judgement {
     const Matrix12d common = CommonTrackerCovariance();
     estimate_.covariance_unscaled = result.covariance + common;
     estimate_.covariance = (IsSandwich() ? Sandwich() : scale * result.covariance) + common;
+  }
+
+  // One step from here: what these residuals are larger than those of least squares by is of the
+  // 12 parameters alone, and to second order nothing of it is left.
+  void SetLeastSquares() {
+    NormalEquations equations;
+    equations.normal = Matrix12d::Zero();
+    equations.gradient = Vector12d::Zero();
+    double squares = 0.0;
+    ForEachWhitened([&](const Observation& o, const Matrix6d&, const Matrix6d& whitener) {
+      const LinearisedError at = Linearise(o, estimate_.mounts);
+      const Vector6d white = whitener * at.error;
+      const Matrix6x12d jacobian = whitener * at.jacobian;
+      squares += white.squaredNorm();
+      equations.normal += jacobian.transpose() * jacobian;
+      equations.gradient += jacobian.transpose() * white;
+    });
+    const double decrease = -equations.gradient.dot(GaussNewtonStep(equations));
+    const int all = 6 * static_cast<int>(observations_.items.size());
+    estimate_.least_squares = {std::max(0.0, squares - decrease),
+                               all - 12 + estimate_.observability.null_directions};
   }
 
   bool HasLoss() const { return weighting_.loss.kind != LossKind::kNone; }
@@ -187,7 +209,8 @@ class Judgement {
       warnings.push_back("the data do not determine " + direction);
     // Nothing was stated that could be doubted.
     if (weighting_.levels_estimated && !observations_.has_robot_noise) return;
-    AddNoiseDoubts(estimate_.noise_scale, estimate_.degrees_of_freedom, &warnings);
+    const NoiseMisfit misfit = estimate_.OfNoise();
+    AddNoiseDoubts(misfit.Scale(), misfit.degrees_of_freedom, &warnings);
   }
 
   const Observations& observations_;

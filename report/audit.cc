@@ -42,17 +42,6 @@ Requirements RequirementsOf(const AuditInput& input) {
   return requirements;
 }
 
-GlobalTest GlobalTestOf(const Estimate& estimate) {
-  GlobalTest test;
-  test.is_stated = !estimate.noise.estimated;
-  const double dof = estimate.degrees_of_freedom;
-  test.low = ChiSquareQuantile(0.5 * (1.0 - kProbability), dof);
-  test.high = ChiSquareQuantile(0.5 * (1.0 + kProbability), dof);
-  test.is_too_large = test.is_stated && estimate.chi_square > test.high;
-  test.is_too_small = test.is_stated && estimate.chi_square < test.low;
-  return test;
-}
-
 // The largest k with a probability of 99 % or more that k or more of n lie inside, each with 95 %
 // (the binomial distribution).
 int FewestInside(int n) {

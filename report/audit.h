@@ -15,6 +15,7 @@
 #include "report/change.h"
 #include "report/correlation.h"
 #include "report/frame_graph.h"
+#include "report/global_test.h"
 #include "report/left_over.h"
 #include "report/linearity.h"
 #include "report/pose_design.h"
@@ -64,13 +65,6 @@ struct BodyReport {
   double sigma = 0.0;                  // of a coordinate, RMS over the axes, m
   double fiducial = 0.0;               // FRE, m
   std::vector<double> at_points = {};  // TRE at the named points; the tool alone
-};
-
-// Does what is left over agree with the noise that was stated?
-struct GlobalTest {
-  bool is_stated = false;  // else the noise was estimated from what is left over: nothing to test
-  double low = 0.0, high = 0.0;  // 95 % limits of chi-square
-  bool is_too_large = false, is_too_small = false;
 };
 
 // Poses predicted from the others.

@@ -52,25 +52,7 @@ HtmlTable BodyTable(const Audit& audit) {
 void AddGoodnessOfFit(const Audit& audit, HtmlPage* page) {
   page->Section("Goodness of fit");
   const Estimate& estimate = audit.estimate;
-  page->Paragraph(fmt::format(
-      "Chi-square of what is left over: {:.5g} with {} degrees of freedom (noise scale, or Birge "
-      "ratio, {:.3f}). {}",
-      estimate.chi_square,
-      estimate.degrees_of_freedom,
-      estimate.noise_scale,
-      !audit.global.is_stated
-          ? std::string("The noise was estimated from it, so that there is nothing to test.")
-          : fmt::format(
-                "Expected with 95 %: {:.5g} to {:.5g}. {}",
-                audit.global.low,
-                audit.global.high,
-                audit.global.is_too_large
-                    ? "There is more than the stated noise explains: the noise is larger, or "
-                      "the model misses something (hexcal discover looks for it)."
-                : audit.global.is_too_small
-                    ? "There is less: the stated noise is too large, and so are the "
-                      "uncertainties."
-                    : "The residuals agree with the stated noise.")));
+  page->Paragraph(GlobalTestText(audit.global, audit.header, estimate));
   page->Paragraph(fmt::format("RMS of what is left over: {} and {} (RMSPE, RMSOE).",
                               SizeText(estimate.rmspe, "m"),
                               SizeText(estimate.rmsoe, "rad")));

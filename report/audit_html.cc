@@ -6,6 +6,7 @@
 #include "report/audit_model.h"
 #include "report/audit_sections.h"
 #include "report/estimate_sections.h"
+#include "report/fit_words.h"
 #include "report/html/page.h"
 #include "report/quantity.h"
 
@@ -139,10 +140,9 @@ void AddModel(const Audit& audit, HtmlPage* page) {
                    "motion of six for T_B^W and for T_T^A each") +
            (audit.grown ? ", and with them the effects of the model, below."
                         : ". Nothing else of the machine is corrected."),
-       fmt::format(
-           "Solver: {}, {}.",
-           audit.header.solver,
-           audit.header.residual == "marker" ? "by the readings of all markers" : "by poses"),
+       fmt::format("Solver: {}.", SolverWords(audit.header)),
+       fmt::format("Loss: {}.", LossWords(audit.header)),
+       fmt::format("Covariance of the 12: {}.", CovarianceWords(audit.header)),
        fmt::format("Noise of a measured pose: {} and {} a coordinate, {}.",
                    SizeText(estimate.noise.position, "m"),
                    SizeText(estimate.noise.orientation, "rad"),

@@ -128,6 +128,7 @@ Json AuditObject(const AuditIdentity& identity, const Audit& audit) {
   json["format"] = "hexcal/audit/1";
   json["dataset"] = audit.header.dataset;
   json["id"] = identity.id;
+  json["fit"] = JsonFit(audit.header);
   json["verdict"] = std::string(NameOf(audit.compliance));
   json["requirements"] = Decisions(audit);
   json["doubts"] = audit.doubts;
@@ -152,8 +153,9 @@ Json AuditObject(const AuditIdentity& identity, const Audit& audit) {
                                            {"b", std::string(kParameters[c.b].name)},
                                            {"value", c.value}});
   json["global_test"] = {{"noise_is_stated", audit.global.is_stated},
-                         {"chi_square", audit.estimate.chi_square},
-                         {"degrees_of_freedom", audit.estimate.degrees_of_freedom},
+                         {"tested", audit.global.is_of_fit ? "fit" : "least_squares"},
+                         {"chi_square", audit.global.tested.chi_square},
+                         {"degrees_of_freedom", audit.global.tested.degrees_of_freedom},
                          {"low", audit.global.low},
                          {"high", audit.global.high},
                          {"too_large", audit.global.is_too_large},

@@ -26,6 +26,15 @@ Json Ranges(const std::array<std::array<double, 2>, 6>& ranges) {
 
 Json JsonNumber(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
+Json JsonFit(const ResultHeader& header) {
+  Json fit = {{"solver", header.solver}, {"residual", header.residual}};
+  if (!header.error.empty()) fit["error"] = header.error;
+  fit["loss"] = std::string(NameOf(header.loss.kind));
+  if (header.loss.kind != LossKind::kNone) fit["loss_scale"] = header.loss.scale;
+  fit["covariance"] = header.is_sandwich ? "sandwich" : "model";
+  return fit;
+}
+
 Json JsonCoverage(const Coverage& coverage) {
   return {{"inside", coverage.inside},
           {"of", coverage.of},

@@ -10,6 +10,7 @@ namespace hexcal {
 // Parts of audit.json (docs/audit.md). SI units.
 
 nlohmann::ordered_json JsonNumber(double value);  // null for NaN and infinities
+nlohmann::ordered_json JsonFit(const ResultHeader& header);
 nlohmann::ordered_json JsonCoverage(const Coverage& coverage);
 nlohmann::ordered_json JsonRows(const Audit& audit);
 nlohmann::ordered_json JsonPoseDesign(const PoseDesign& design);

@@ -76,13 +76,7 @@ std::string AuditTable(const Audit& audit) {
                         decision.requirement.name,
                         decision.reason);
   for (const PointReport& report : audit.points) text += PointLines(report) + "\n";
-  text += fmt::format("  chi-square     {:.5g} with {} degrees of freedom{}\n",
-                      estimate.chi_square,
-                      estimate.degrees_of_freedom,
-                      !audit.global.is_stated     ? " (noise estimated: nothing to test)"
-                      : audit.global.is_too_large ? ": more than the stated noise explains"
-                      : audit.global.is_too_small ? ": less than the stated noise"
-                                                  : ": as the stated noise explains");
+  text += GlobalTestLines(audit.global, estimate);
   if (audit.held_out.poses > 0)
     text +=
         fmt::format("  held out       {} of {} poses in their 95 % region; {} RMS, {} expected\n",

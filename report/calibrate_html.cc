@@ -44,6 +44,14 @@ void AddFit(const ResultHeader& header,
                   SizeText(estimate.noise.position, "m"),
                   SizeText(estimate.noise.orientation, "rad"),
                   estimate.noise.estimated ? "estimated from it" : "as stated"));
+  if (estimate.least_squares)
+    page->Paragraph(fmt::format(
+        "That is the sum as this fit weighs the poses. Least squares leaves {:.5g} of the same "
+        "poses, none weighted down, with {} degrees of freedom, noise scale {:.3f}: the noise is "
+        "judged by it.",
+        estimate.least_squares->chi_square,
+        estimate.least_squares->degrees_of_freedom,
+        estimate.least_squares->Scale()));
   AddResidualPictures(left.poses, scene, page);
   AddMarkers(left, page);
   page->Heading("How the fit was found");

@@ -87,6 +87,9 @@ Json ResultObject(const ResultHeader& header,
   result["solver"] = header.solver;
   result["residual"] = header.residual;
   if (!header.error.empty()) result["error"] = header.error;
+  if (header.loss.kind != LossKind::kNone)
+    result["loss"] = {{"kind", std::string(NameOf(header.loss.kind))},
+                      {"scale", header.loss.scale}};
   result["converged"] = estimate.converged;
   result["world_from_base"] = JsonPose(estimate.mounts.world_from_base);
   result["platform_from_tool"] = JsonPose(estimate.mounts.platform_from_tool);
@@ -107,6 +110,10 @@ Json ResultObject(const ResultHeader& header,
   result["rmsoe"] = estimate.rmsoe;
   result["chi_square"] = estimate.chi_square;
   result["degrees_of_freedom"] = estimate.degrees_of_freedom;
+  if (estimate.least_squares)
+    result["least_squares"] = {{"chi_square", estimate.least_squares->chi_square},
+                               {"degrees_of_freedom", estimate.least_squares->degrees_of_freedom},
+                               {"noise_scale", estimate.least_squares->Scale()}};
   result["iterations"] = JsonIterations(estimate.iterations);
   result["observability"] = {{"singular_values", JsonList(observability.singular_values)},
                              {"condition_number", observability.condition_number},

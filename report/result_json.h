@@ -7,6 +7,7 @@
 #include "estimator/estimate.h"
 #include "model/effect.h"
 #include "report/readings.h"
+#include "residuals/robust_loss.h"
 
 namespace hexcal {
 
@@ -18,6 +19,8 @@ struct ResultHeader {
   std::string error;     // paper | twist; empty for the nonlinear solver
   // Of the dataset: by them an audit sees whether two results share any. May be empty.
   DatasetReadings readings = {};
+  RobustLoss loss = {};
+  bool is_sandwich = false;  // the covariance is
 };
 
 // result.json (docs/results.md), format hexcal/result/1: a key a line, an entry of a list of

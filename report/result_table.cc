@@ -76,6 +76,13 @@ std::string Summary(const Estimate& e) {
                       e.chi_square,
                       e.degrees_of_freedom,
                       e.noise_scale);
+  if (e.least_squares)
+    text += fmt::format(
+        "  least squares  {:.5g} with {} of the same poses, none weighted down (noise scale "
+        "{:.3f})\n",
+        e.least_squares->chi_square,
+        e.least_squares->degrees_of_freedom,
+        e.least_squares->Scale());
   const double condition = e.observability.condition_number;
   text += fmt::format("  condition      {} of the scaled Jacobian\n",
                       std::isfinite(condition) ? fmt::format("{:.3g}", condition) : "infinite");

@@ -5,10 +5,17 @@
 
 #include <cmath>
 #include <memory>
+#include <string_view>
 
 namespace hexcal {
 
 enum class LossKind { kNone, kHuber, kCauchy, kTukey };
+constexpr std::string_view NameOf(LossKind kind) {
+  return kind == LossKind::kHuber    ? "huber"
+         : kind == LossKind::kCauchy ? "cauchy"
+         : kind == LossKind::kTukey  ? "tukey"
+                                     : "none";
+}
 
 // rho(s), s the squared norm of a pose's six whitened residuals, in Ceres's conventions: rho(s) = s
 // near 0, twice the cost. What lies beyond the scale counts less (Huber, Cauchy) or not at all
