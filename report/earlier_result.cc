@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "config/strict_yaml.h"
+#include "geometry/covariance.h"
 
 namespace hexcal {
 namespace {
@@ -67,6 +68,9 @@ EarlierResult ReadEarlierResult(const std::string& path) {
     for (int j = 0; j < 12; ++j)
       if (row[j].kind != YamlNode::Kind::kNull) result.covariance(i, j) = ReadNumber(row[j]);
   }
+  if (!IsCovariance(result.covariance))
+    throw InputError(
+        covariance.where, "a matrix that is no covariance", "a symmetric, positive one");
   result.readings = ReadReadings(root);
   return result;
 }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/linear_algebra.h"
+#include "geometry/covariance.h"
 #include "measurement/table_input.h"
 
 namespace hexcal {
@@ -34,14 +34,11 @@ Eigen::Vector3d ReadVector(const YamlNode& node) {
 }
 
 Eigen::Matrix3d ReadCovariance(const YamlNode& node) {
-  constexpr double kRounding = 1e-9;
   const auto& rows = ReadSequence(node, "3 rows of 3 numbers");
   if (rows.size() != 3) throw InputError(node.where, Describe(node), "3 rows of 3 numbers");
   Eigen::Matrix3d covariance;
   for (int i = 0; i < 3; ++i) covariance.row(i) = ReadVector(rows[i]).transpose();
-  const double size = covariance.norm();
-  const bool is_symmetric = (covariance - covariance.transpose()).norm() <= kRounding * size;
-  if (!is_symmetric || DecomposeSymmetric(covariance).values[0] < -kRounding * size)
+  if (!IsCovariance(covariance))
     throw InputError(node.where, "a matrix that is no covariance", "a symmetric, positive one");
   return 0.5 * (covariance + covariance.transpose());
 }

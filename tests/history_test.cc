@@ -55,6 +55,9 @@ TEST(HistoryRecord, IsNotWhatIsNoRecord) {
   std::string longer = text;
   longer.replace(longer.find("0.2"), 3, "1e9999");
   EXPECT_FALSE(ParseRecord(longer));
+  HistoryRecord impossible = AnyRecord("d", 3);
+  impossible.known.covariance(0, 0) = -impossible.known.covariance(0, 0);
+  EXPECT_FALSE(ParseRecord(CanonicalText(impossible)));
   std::string stretched = text;
   stretched.replace(stretched.find("\"quaternion\":[1.0"), 17, "\"quaternion\":[2.0");
   EXPECT_FALSE(ParseRecord(stretched));

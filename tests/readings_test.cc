@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "config/input_error.h"
 #include "report/change.h"
 #include "report/result_json.h"
 #include "testing/random.h"
@@ -104,6 +105,17 @@ EarlierResult Earlier(const Estimate& estimate, const DatasetReadings& readings)
   const testing::TemporaryFolder folder;
   ResultHeader header = {"demo", "nonlinear", "marker", "", readings};
   return ReadEarlierResult(folder.Write("r.json", ResultJson(header, estimate)));
+}
+
+TEST(EarlierResult, OfWhichTheCovarianceIsNoneIsRefused) {
+  Estimate estimate = Calibrated();
+  estimate.covariance(0, 1) = estimate.covariance(1, 0) = 2e-10;  // a correlation of 2
+  try {
+    Earlier(estimate, {});
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("a matrix that is no covariance"), std::string::npos);
+  }
 }
 
 // By hand: 3e-5 of two variances of 1e-10 is 2.12 of their difference and 3 of one.

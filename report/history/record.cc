@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/covariance.h"
 #include "report/json_parts.h"
 #include "report/json_text.h"
 
@@ -201,6 +202,7 @@ std::optional<HistoryRecord> ParseRecord(std::string_view text) {
     ReadNumbers(json, &record);
     const BaseAndTool& mounts = record.known.mounts;
     if (!IsPose(mounts.world_from_base) || !IsPose(mounts.platform_from_tool)) return std::nullopt;
+    if (!IsCovariance(record.known.covariance)) return std::nullopt;
     return record;
   } catch (const Json::exception&) {
     return std::nullopt;
