@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "discovery/discover.h"
 
-#include <glog/logging.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "discovery/findings.h"
 #include "discovery/given.h"
 #include "discovery/investigation.h"
-#include "discovery/swapped_markers.h"
+#include "discovery/prepare.h"
 #include "estimator/calibrate.h"
-#include "model/data_fault.h"
 #include "model/described_effect.h"
 #include "model/predict.h"
 
@@ -23,27 +20,20 @@ constexpr double kGivenWidth = 3.0;
 
 class Discoverer {
  public:
-  // swaps: what is already mended in the dataset.
-  Discoverer(const Dataset& dataset,
-             const std::vector<FaultFound>& swaps,
-             const DiscoverOptions& options)
-      : work_{dataset, options, MakeObservations(dataset)} {
-    work_.faults = swaps;
+  Discoverer(const MendedDataset& mended, const DiscoverOptions& options)
+      : work_{mended.dataset, options, MakeObservations(mended.dataset)} {
+    work_.faults = mended.swaps;
   }
 
   Discovery Run() {
-    MendFaults();
-    Calibrate12();
-    work_.data = MakeGapData(work_.dataset, work_.reported);
-    work_.library = MakeFormLibrary(work_.dataset, work_.data.visits, work_.data.rows);
+    Prepared start = Prepare(&work_);
+    result_.base_and_tool = std::move(start.base_and_tool);
+    start_ = start.mounts;
+    given_now_ = std::move(start.given_now);
     for (const auto& [name, needs] : work_.library.not_testable)
       result_.not_testable.push_back({name, needs});
-    start_ = MountsOf(result_.base_and_tool);
-    if (work_.given.empty())
-      work_.problem = MakeGapProblem(work_.data, start_, {}, work_.library);
-    else
-      StartFromModel();
-    SelectEffects();
+    work_.selection = SelectEffects(work_, work_.options.most_effects);
+    TestOnHeldOut();
     CompareWithGeometry();
     Grow();
     FillFindings(work_, &result_);
@@ -59,61 +49,7 @@ class Discoverer {
     if (work_.options.progress) work_.options.progress(stage, done, of);
   }
 
-  // What a model says of the data is taken as it is.
-  void TakeModel(const Machine& model) {
-    RequireDriversOf(model, work_.dataset);
-    work_.given = FittedEffects(model);
-    work_.given_faults = FaultsOf(model);
-    work_.reported = ReportedPoses(work_.dataset, model);
-    work_.robot_is_mended =
-        std::any_of(work_.given_faults.begin(), work_.given_faults.end(), [](const Effect& fault) {
-          return fault.name != "swapped_markers";  // mended already, and not the robot's
-        });
-  }
-
-  void StartFromModel() {
-    Report("the given model", 0, 1);
-    GivenFit fit = FitGiven(work_.data, start_, work_.given, work_.library);
-    start_ = fit.mounts;
-    given_now_ = std::move(fit.effects);
-    work_.problem = std::move(fit.problem);
-  }
-
-  void MendFaults() {
-    Report("faults of the data", 0, 1);
-    if (work_.options.model) TakeModel(*work_.options.model);
-    if (work_.robot_is_mended) return;
-    work_.reported = ReportedPoses(work_.dataset);
-    if (const std::optional<FaultFound> fault = FindFault(work_.dataset, work_.observations)) {
-      Machine machine;
-      machine.hexapod = work_.dataset.hexapod;
-      machine.effects = {fault->effect};
-      work_.reported = ReportedPoses(work_.dataset, machine);
-      work_.faults.push_back(*fault);
-      work_.robot_is_mended = true;
-    }
-  }
-
-  void Calibrate12() {
-    CalibrateOptions options;
-    options.noise = work_.options.noise;
-    options.threads = work_.options.threads;
-    result_.base_and_tool = Calibrate(work_.observations, std::nullopt, options);
-    if (!work_.robot_is_mended) return;
-    const ToolPoses tools = ComputeToolPoses(work_.dataset);
-    for (std::size_t i = 0; i < work_.observations.items.size(); ++i)
-      work_.observations.items[i].base_from_platform = work_.reported[tools.poses[i].pose];
-    result_.base_and_tool = Calibrate(work_.observations, std::nullopt, options);
-  }
-
-  void SelectEffects() {
-    SelectOptions options;
-    options.alpha = work_.options.alpha;
-    options.bootstraps = work_.options.bootstraps;
-    options.most_effects = work_.options.most_effects;
-    options.seed = work_.options.seed;
-    options.progress = [this](int step) { Report("search", step, work_.options.most_effects + 1); };
-    work_.selection = Select(work_.problem.linear, work_.problem.trend, options);
+  void TestOnHeldOut() {
     if (work_.options.folds < 2) {
       work_.held.after_steps.assign(work_.selection.chosen.size() + 1, 0.0);
       return;
@@ -274,23 +210,9 @@ class Discoverer {
 
 }  // namespace
 
-namespace {
-
-Discovery DiscoverIn(const Dataset& dataset, const DiscoverOptions& options) {
-  const std::vector<FaultFound> swaps = FindSwappedMarkers(dataset);
-  if (swaps.empty()) return Discoverer(dataset, {}, options).Run();
-  Dataset mended = dataset;
-  for (const FaultFound& swap : swaps)
-    mended.measurement = MendedMeasurement(*mended.measurement, {swap.effect});
-  return Discoverer(mended, swaps, options).Run();
-}
-
-}  // namespace
-
 Discovery Discover(const Dataset& dataset, const DiscoverOptions& options) {
-  if (!options.model) return DiscoverIn(dataset, options);
-  CHECK(!options.model->pose_map) << "a model with a pose map";
-  return DiscoverIn(AsSeenBy(*options.model, dataset), options);
+  const MendedDataset mended = MendMarkers(dataset, options);
+  return Discoverer(mended, options).Run();
 }
 
 }  // namespace hexcal

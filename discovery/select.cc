@@ -84,7 +84,7 @@ class Selector {
   // The place of the family to add, or -1.
   int Gate(const Scorer& scorer, double alpha, int number, SelectionStep* step) {
     const FamilyWise null(scorer, options_.bootstraps, options_.seed + number);
-    std::vector<double> p_values;
+    std::vector<double>& p_values = step->p_values;
     for (const FamilyScore& family : step->families) {
       step->paid.push_back(null.Paid(family.family, -family.log10_p));
       p_values.push_back(null.PValue(step->paid.back()));

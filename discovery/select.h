@@ -26,6 +26,7 @@ struct SelectOptions {
 struct SelectionStep {
   std::vector<Scorer::FamilyScore> families;  // best first, given what was chosen before
   std::vector<double> paid;                   // -log10 p of each of them, its search paid for
+  std::vector<double> p_values;               // of each of them, all families paid for
   int added = -1;                             // form; -1: nothing more
   double p_value = 1.0;                       // family-wise
 };

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "discovery/screening.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "discovery/answers.h"
+#include "discovery/joint_fit.h"
+#include "discovery/prepare.h"
+
+namespace hexcal {
+namespace {
+
+constexpr const char* kHeldByMounts = "other poses: base and tool explain it as well in these";
+
+class Screener {
+ public:
+  Screener(const Investigation& work, const std::vector<Eigen::Vector3d>& p_in_tool)
+      : work_(work),
+        problem_(work.problem.linear),
+        p_in_tool_(p_in_tool),
+        units_(UnitsOf(work.library)),
+        sites_(SitesOf(work.library)),
+        alone_(FitJointly(problem_, work.selection.noise, {}, kWidePrior, Eigen::VectorXd())) {}
+
+  Screening Run() {
+    Screening result;
+    result.alpha = work_.options.alpha;
+    const SelectionStep& step = work_.selection.steps.front();
+    result.hypotheses = static_cast<int>(step.families.size());
+    std::set<int> seen;
+    for (std::size_t k = 0; k < step.families.size(); ++k) {
+      const int family = step.families[k].family;
+      seen.insert(family);
+      const bool is_named = step.added == step.families[k].best.form;
+      if (problem_.families[family].is_described && !is_named) continue;
+      result.tested.push_back(Of(step, k, is_named));
+      if (is_named)
+        result.named.push_back(Sentence(step.families[k].best.form, result.tested.back()));
+    }
+    std::stable_sort(
+        result.tested.begin(), result.tested.end(), [](const Hypothesis& a, const Hypothesis& b) {
+          return a.is_named != b.is_named ? a.is_named : a.log10_p < b.log10_p;
+        });
+    for (const FaultFound& fault : work_.faults)
+      result.named.push_back(AnswerFor(fault.effect, work_.dataset).description);
+    for (const auto& [name, needs] : work_.library.not_testable)
+      result.not_testable.push_back({name, needs});
+    for (std::size_t f = 0; f < problem_.families.size(); ++f)
+      if (!problem_.families[f].is_described && seen.count(static_cast<int>(f)) == 0)
+        result.not_testable.push_back({problem_.families[f].name, kHeldByMounts});
+    return result;
+  }
+
+ private:
+  Hypothesis Of(const SelectionStep& step, std::size_t k, bool is_named) const {
+    const Score& score = step.families[k].best;
+    const Form& form = problem_.forms[score.form];
+    Hypothesis one;
+    one.name = problem_.families[form.family].name;
+    one.is_named = is_named;
+    one.parameters = score.rank;
+    one.gain = score.gain;
+    one.p_value = is_named ? step.p_value : step.p_values[k];
+    one.log10_p = score.log10_p;
+    one.own_p_value = std::pow(10.0, score.log10_p);
+    const auto rows = static_cast<double>(problem_.error.size() + Freedom(problem_.shape_freedom));
+    one.aic_change = 2.0 * score.rank - score.gain;
+    one.bic_change = std::log(rows) * score.rank - score.gain;
+    const JointFit fit =
+        FitJointly(problem_, work_.selection.noise, {score.form}, kWidePrior, Eigen::VectorXd());
+    const Eigen::Index mounts = fit.mounts.size();
+    Eigen::Index largest = 0;
+    fit.coefficients.cwiseAbs()
+        .cwiseQuotient(problem_.scale.segment(form.first, form.size))
+        .maxCoeff(&largest);
+    one.size = fit.coefficients[largest];
+    one.standard_uncertainty = std::sqrt(fit.covariance(mounts + largest, mounts + largest));
+    one.unit = units_[form.family];
+    one.labels =
+        AnswerFor(EffectOf(work_.library.forms[score.form], fit.coefficients), work_.dataset)
+            .labels;
+    const Eigen::VectorXd moved = Moved(form, fit);
+    for (const Eigen::Vector3d& p : p_in_tool_) one.at_points.push_back(RmsAt(moved, p));
+    return one;
+  }
+
+  static int Freedom(const std::vector<int>& by_pose) {
+    int sum = 0;
+    for (const int freedom : by_pose) sum += freedom;
+    return sum;
+  }
+
+  // How the tool's predicted poses change, frame T, 6 a pose. What only the tracker or a marker
+  // does moves no tool but by what base and tool make of it.
+  Eigen::VectorXd Moved(const Form& form, const JointFit& fit) const {
+    Eigen::VectorXd moved = problem_.nuisance * (fit.mounts - alone_.mounts);
+    const std::string& site = sites_[form.family];
+    if (site != "tracker" && site != "marker")
+      moved += problem_.columns->middleCols(form.first, form.size) * fit.coefficients;
+    return moved;
+  }
+
+  double RmsAt(const Eigen::VectorXd& moved, const Eigen::Vector3d& p_in_tool) const {
+    double squares = 0.0;
+    for (int k = 0; k < problem_.poses; ++k) {
+      const Vector6d d = moved.segment<6>(6 * k);
+      squares += (d.head<3>() + d.tail<3>().cross(p_in_tool)).squaredNorm();
+    }
+    return std::sqrt(squares / std::max(problem_.poses, 1));
+  }
+
+  std::string Sentence(int form, const Hypothesis& one) const {
+    const FormDefinition& definition = work_.library.forms[form];
+    const DiscoveredEffect answer =
+        AnswerFor(EffectOf(definition, Eigen::VectorXd::Zero(definition.size())), work_.dataset);
+    if (problem_.families[definition.family].is_described)
+      return fmt::format("something at the {} that follows {}", answer.site, answer.driver);
+    std::string labels;
+    for (const std::string& label : one.labels) labels += (labels.empty() ? "" : ", ") + label;
+    return labels.empty() ? one.name : fmt::format("{} ({})", one.name, labels);
+  }
+
+  const Investigation& work_;
+  const LinearProblem& problem_;
+  const std::vector<Eigen::Vector3d>& p_in_tool_;
+  std::vector<std::string> units_, sites_;
+  JointFit alone_;
+};
+
+}  // namespace
+
+Screening Screen(const Dataset& dataset,
+                 const DiscoverOptions& options,
+                 const std::vector<Eigen::Vector3d>& p_in_tool) {
+  const MendedDataset mended = MendMarkers(dataset, options);
+  Investigation work{mended.dataset, options, MakeObservations(mended.dataset)};
+  work.faults = mended.swaps;
+  Prepare(&work);
+  work.selection = SelectEffects(work, 1);
+  return Screener(work, p_in_tool).Run();
+}
+
+}  // namespace hexcal
