@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/audit_screening.h"
 #include "apps/calibrate_options.h"
 #include "apps/dataset_files.h"
 #include "apps/estimate_mounts.h"
@@ -110,15 +111,17 @@ Audit AuditDataset(const Dataset& dataset,
   const NoiseLevels levels = LevelsOf(observations, options.noise, comparison.reference);
   ResultHeader header = HeaderOf(dataset.name, options, by_markers);
   header.readings = ReadingsOf(dataset);
-  return MakeAudit({dataset,
-                    observations,
-                    levels,
-                    std::move(header),
-                    std::move(estimate),
-                    std::move(comparison),
-                    requirements,
-                    earlier,
-                    compare.seed});
+  AuditInput input = {dataset,
+                      observations,
+                      levels,
+                      std::move(header),
+                      std::move(estimate),
+                      std::move(comparison),
+                      requirements,
+                      earlier,
+                      compare.seed};
+  ScreenFor(std::nullopt, &bars, &input);
+  return MakeAudit(std::move(input));
 }
 
 // The same with the effects of a model, jointly; methods are compared by poses without effects.
@@ -149,16 +152,18 @@ Audit AuditGrown(const Dataset& dataset,
       grown.estimate.converged ? std::make_shared<const GrownTarget>(grown.solution) : nullptr;
   ResultHeader header = HeaderOf(dataset.name, options, false);
   header.readings = ReadingsOf(dataset);
-  return MakeAudit({dataset,
-                    solution.observations,
-                    levels,
-                    std::move(header),
-                    std::move(grown.estimate),
-                    std::move(comparison),
-                    requirements,
-                    std::nullopt,
-                    compare.seed,
-                    std::move(target)});
+  AuditInput input = {dataset,
+                      solution.observations,
+                      levels,
+                      std::move(header),
+                      std::move(grown.estimate),
+                      std::move(comparison),
+                      requirements,
+                      std::nullopt,
+                      compare.seed,
+                      std::move(target)};
+  ScreenFor(model, &bars, &input);
+  return MakeAudit(std::move(input));
 }
 
 // The effects to audit with; nothing without a --model, or where that has none.

@@ -43,7 +43,8 @@ class Screener {
     }
     std::stable_sort(
         result.tested.begin(), result.tested.end(), [](const Hypothesis& a, const Hypothesis& b) {
-          return a.is_named != b.is_named ? a.is_named : a.log10_p < b.log10_p;
+          if (a.is_named != b.is_named) return a.is_named;
+          return a.p_value != b.p_value ? a.p_value < b.p_value : a.log10_p < b.log10_p;
         });
     for (const FaultFound& fault : work_.faults)
       result.named.push_back(AnswerFor(fault.effect, work_.dataset).description);
@@ -73,19 +74,36 @@ class Screener {
     const JointFit fit =
         FitJointly(problem_, work_.selection.noise, {score.form}, kWidePrior, Eigen::VectorXd());
     const Eigen::Index mounts = fit.mounts.size();
-    Eigen::Index largest = 0;
-    fit.coefficients.cwiseAbs()
-        .cwiseQuotient(problem_.scale.segment(form.first, form.size))
-        .maxCoeff(&largest);
+    const FormDefinition& definition = work_.library.forms[score.form];
+    const Eigen::Index largest = LargestOf(definition, form, fit.coefficients);
     one.size = fit.coefficients[largest];
     one.standard_uncertainty = std::sqrt(fit.covariance(mounts + largest, mounts + largest));
-    one.unit = units_[form.family];
-    one.labels =
-        AnswerFor(EffectOf(work_.library.forms[score.form], fit.coefficients), work_.dataset)
-            .labels;
+    one.unit = UnitOf(definition, largest);
+    one.labels = AnswerFor(EffectOf(definition, fit.coefficients), work_.dataset).labels;
     const Eigen::VectorXd moved = Moved(form, fit);
     for (const Eigen::Vector3d& p : p_in_tool_) one.at_points.push_back(RmsAt(moved, p));
     return one;
+  }
+
+  // Of a compliance the first: the others are products of it with mass and height.
+  Eigen::Index LargestOf(const FormDefinition& definition,
+                         const Form& form,
+                         const Eigen::VectorXd& coefficients) const {
+    Eigen::Index largest = 0;
+    if (definition.reading != FormDefinition::Reading::kCompliance)
+      coefficients.cwiseAbs()
+          .cwiseQuotient(problem_.scale.segment(form.first, form.size))
+          .maxCoeff(&largest);
+    return largest;
+  }
+
+  // A coefficient's: that of the number that it moves most.
+  std::string UnitOf(const FormDefinition& definition, Eigen::Index coefficient) const {
+    const EffectKind* kind = FindEffectKind(definition.effect.name);
+    if (kind == nullptr || definition.directions.size() == 0) return units_[definition.family];
+    Eigen::Index number = 0;
+    definition.directions.col(coefficient).cwiseAbs().maxCoeff(&number);
+    return std::string(kind->UnitOf(static_cast<int>(number)));
   }
 
   static int Freedom(const std::vector<int>& by_pose) {
@@ -131,17 +149,46 @@ class Screener {
   JointFit alone_;
 };
 
+// Leaves so many poses at most with what was measured of them; all rows stay, since effects
+// depend on where the machine came from. Returns how many there were.
+int Thin(int most, Measurement* measurement) {
+  std::set<int> measured;
+  for (const MeasuredPose& pose : measurement->poses) measured.insert(pose.pose);
+  for (const MarkerReading& reading : measurement->readings) measured.insert(reading.pose);
+  const int all = static_cast<int>(measured.size());
+  const int stride = (all + most - 1) / most;
+  if (stride < 2) return all;
+  int place = 0;
+  std::set<int> dropped;
+  for (const int pose : measured)
+    if (place++ % stride != 0) dropped.insert(pose);
+  const auto drop = [&dropped](auto* items) {
+    items->erase(std::remove_if(items->begin(),
+                                items->end(),
+                                [&](const auto& item) { return dropped.count(item.pose) > 0; }),
+                 items->end());
+  };
+  drop(&measurement->poses);
+  drop(&measurement->readings);
+  return all;
+}
+
 }  // namespace
 
 Screening Screen(const Dataset& dataset,
                  const DiscoverOptions& options,
-                 const std::vector<Eigen::Vector3d>& p_in_tool) {
-  const MendedDataset mended = MendMarkers(dataset, options);
+                 const std::vector<Eigen::Vector3d>& p_in_tool,
+                 int most_poses) {
+  MendedDataset mended = MendMarkers(dataset, options);
+  const int all = Thin(most_poses, &*mended.dataset.measurement);
   Investigation work{mended.dataset, options, MakeObservations(mended.dataset)};
   work.faults = mended.swaps;
   Prepare(&work);
   work.selection = SelectEffects(work, 1);
-  return Screener(work, p_in_tool).Run();
+  Screening result = Screener(work, p_in_tool).Run();
+  result.poses = work.problem.linear.poses;
+  result.of = all;
+  return result;
 }
 
 }  // namespace hexcal

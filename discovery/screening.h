@@ -30,8 +30,9 @@ struct Hypothesis {
 };
 
 struct Screening {
-  double alpha = 0.01;  // chance that anything is named in data that lack nothing
-  int hypotheses = 0;   // families that were tried, descriptions without a cause among them
+  double alpha = 0.01;    // chance that anything is named in data that lack nothing
+  int poses = 0, of = 0;  // measured poses that were used: of many, evenly some
+  int hypotheses = 0;     // families that were tried, descriptions without a cause among them
   std::vector<Hypothesis> tested;  // best first; a description only where it is named
   std::vector<NotTestable> not_testable;
   std::vector<std::string> named;  // one sentence each, faults of the data among them
@@ -39,8 +40,10 @@ struct Screening {
 
 // p_in_tool: the points. A fraction of Discover's time, as nothing is refitted. InputError as
 // Discover; the model of the options has no pose map.
+// most_poses: time and memory grow with the poses; of more, so many or fewer are taken evenly.
 Screening Screen(const Dataset& dataset,
                  const DiscoverOptions& options,
-                 const std::vector<Eigen::Vector3d>& p_in_tool);
+                 const std::vector<Eigen::Vector3d>& p_in_tool,
+                 int most_poses = 200);
 
 }  // namespace hexcal

@@ -13,6 +13,7 @@
 #include "report/audit_budget.h"
 #include "report/audit_model.h"
 #include "report/decide.h"
+#include "report/missing_effects.h"
 
 namespace hexcal {
 namespace {
@@ -174,6 +175,7 @@ std::vector<std::string> DoubtsOf(const Audit& audit) {
                                      : fmt::format("{} poses", estimate.outliers.size()),
                                  estimate.outliers.size() == 1 ? "was" : "were"));
   AddDoubtsOfModel(audit, &doubts);
+  AddDoubtsOfMissing(audit, &doubts);
   return doubts;
 }
 
@@ -211,6 +213,8 @@ Audit MakeAudit(AuditInput input) {
   audit.estimate = std::move(input.estimate);
   audit.comparison = std::move(input.comparison);
   audit.grown = input.grown;
+  audit.missing = std::move(input.missing);
+  audit.why_not_screened = std::move(input.why_not_screened);
   audit.robot_is_stated = audit.requirements.robot.has_value();
   if (audit.robot_is_stated) audit.sources.push_back(audit.requirements.robot->source);
   for (const StatedSource& stated : audit.requirements.sources)

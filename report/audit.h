@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "discovery/screening.h"
 #include "estimator/compare.h"
 #include "estimator/grown_target.h"
 #include "estimator/pose_check.h"
@@ -102,7 +103,9 @@ struct Audit {
   std::optional<Change> change;
   std::shared_ptr<const GrownTarget> grown;  // where effects of a model are in it
   std::vector<ErrorSource> sources;          // with the points' own errors left out
-  std::vector<std::string> doubts;           // why nothing may pass
+  std::optional<Screening> missing;          // effects that the data may ask for; else why not:
+  std::string why_not_screened;
+  std::vector<std::string> doubts;  // why nothing may pass
   Compliance compliance = Compliance::kNotAsked;
 };
 
@@ -118,6 +121,9 @@ struct AuditInput {
   std::uint64_t seed = 1;
   // The model with effects that the estimate was made with; the observations are then its own.
   std::shared_ptr<const GrownTarget> grown = nullptr;
+  // At the requirements' points, or at the origin of frame T; else why it was not made.
+  std::optional<Screening> missing = std::nullopt;
+  std::string why_not_screened = {};
 };
 
 Audit MakeAudit(AuditInput input);

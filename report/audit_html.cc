@@ -8,6 +8,7 @@
 #include "report/estimate_sections.h"
 #include "report/fit_words.h"
 #include "report/html/page.h"
+#include "report/missing_effects.h"
 #include "report/quantity.h"
 
 namespace hexcal {
@@ -220,6 +221,7 @@ std::string AuditHtml(const AuditIdentity& identity,
   AddMounts(audit.estimate, &page);
   AddLinearizedAgainstNonlinear(audit, &page);
   AddGoodnessOfFit(audit, &page);
+  AddMissingEffects(audit, &page);
   AddBudget(audit, &page);
   AddValidation(audit, &page);
   AddAccuracy(audit, &page);

@@ -6,6 +6,7 @@
 #include "report/audit_model.h"
 #include "report/json_parts.h"
 #include "report/json_text.h"
+#include "report/missing_effects.h"
 
 namespace hexcal {
 namespace {
@@ -169,6 +170,7 @@ Json AuditObject(const AuditIdentity& identity, const Audit& audit) {
                       {"poses", held.poses},
                       {"fewest_inside", held.fewest},
                       {"coverage", held.coverage ? JsonCoverage(*held.coverage) : Json()}};
+  json["missing_effects"] = JsonMissingEffects(audit);
   json["methods"] = Methods(audit);
   const PropagationCheck& propagation = audit.comparison.propagation;
   json["propagation"] = {{"done", propagation.done},

@@ -72,6 +72,7 @@ TEST_F(CliAuditModel, TheErrorHoldsTheEffectsUncertainty) {
   ASSERT_EQ(result.status, 0) << result.err;
   const Json audit = Read("audit.json");
   EXPECT_EQ(audit["verdict"], "PASS") << audit["doubts"];
+  EXPECT_TRUE(audit["missing_effects"]["named"].empty()) << audit["missing_effects"]["named"];
   EXPECT_EQ(audit["inputs"].size(), 5u);  // dataset, poses, markers, model, requirement
   const Json& budget = audit["points"][0]["budget"];
   EXPECT_EQ(budget[0]["source"], "calibration of base and tool");

@@ -68,6 +68,7 @@ TEST_P(ScreenedEffect, IsAsTheJointFitHasIt) {
   Eigen::Index at = 0;
   (effect.parameters.array() - found.size).abs().minCoeff(&at);
   EXPECT_NEAR(found.size, effect.parameters[at], 2.0 * effect.standard_deviation[at]);
+  EXPECT_EQ(found.unit, FindEffectKind(GetParam())->UnitOf(static_cast<int>(at)));
   EXPECT_NEAR(found.standard_uncertainty / effect.standard_deviation[at], 1.0, 0.2);
 }
 
@@ -100,6 +101,17 @@ TEST(Screening, StartsFromAModel) {
   DiscoverOptions options = Quick();
   options.model = measured.scene.model;
   EXPECT_THAT(Screen(measured.dataset, options, {}).named, IsEmpty());
+}
+
+// Of many poses some are enough; what is hidden in all of them shows in every third.
+TEST(Screening, TakesSomeOfManyPoses) {
+  const Measured measured = Measure({"tool_thermal"}, 3);
+  const Screening screening = Screen(measured.dataset, Quick(), {}, 29);
+  EXPECT_EQ(screening.of, 60);
+  EXPECT_EQ(screening.poses, 20);
+  ASSERT_THAT(screening.named, SizeIs(1));
+  EXPECT_EQ(screening.tested.front().name, "tool_thermal");
+  EXPECT_EQ(Screen(measured.dataset, Quick(), {}, 60).poses, 60);
 }
 
 TEST(Screening, SaysWhatTheDataCannotTell) {

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "apps/audit_screening.h"
+
+#include <vector>
+
+#include "apps/discover.h"
+
+namespace hexcal {
+
+void ScreenFor(const std::optional<Machine>& model, StageBars* bars, AuditInput* input) {
+  if (!input->estimate.IsTrustworthy()) return;
+  if (model && model->pose_map) {
+    input->why_not_screened = "the model has a pose map, from which discovery does not start";
+    return;
+  }
+  DiscoverOptions options = DiscoverOptionsFromFlags();
+  options.model = model;
+  options.progress = [bars](const char* stage, int done, int of) { bars->Update(stage, done, of); };
+  std::vector<Eigen::Vector3d> points;
+  if (input->requirements)
+    for (const NamedPoint& point : input->requirements->points) points.push_back(point.p_in_tool);
+  if (points.empty()) points.emplace_back(Eigen::Vector3d::Zero());
+  input->missing = Screen(input->dataset, options, points);
+}
+
+}  // namespace hexcal
