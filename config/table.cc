@@ -77,7 +77,9 @@ void TableReader::Impl::CheckHeaderCell(
 }
 
 void TableReader::Impl::ReadHeader() {
-  if (!Advance()) throw InputError(Table(), "an empty table", "a header row with column names");
+  constexpr std::string_view kHeader = "a header row with column names";
+  if (!Advance()) throw InputError(Table(), "an empty table", kHeader);
+  if (cells.empty()) throw InputError(Row(), "a row without cells", kHeader);
   std::unordered_map<std::string_view, std::size_t> seen;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     CheckHeaderCell(i, seen);

@@ -246,6 +246,8 @@ TEST(Table, RefusesBadInlineRows) {
       "f.yaml:1:1: found a mapping of 1 key, expected a list of rows, the first the column names");
   EXPECT_EQ(InlineError("[]"),
             "f.yaml:1:1: found an empty table, expected a header row with column names");
+  EXPECT_EQ(InlineError("[[], [1, 2]]"),
+            "f.yaml:1:2: found a row without cells, expected a header row with column names");
   EXPECT_EQ(InlineError("[pose, x]"),
             "f.yaml:1:2: found the text 'pose', expected a row: a list of cells");
   EXPECT_EQ(InlineError("[[pose, x], [1, [2]]]"),
