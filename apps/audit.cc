@@ -26,6 +26,7 @@
 #include "report/audit_html.h"
 #include "report/audit_json.h"
 #include "report/audit_table.h"
+#include "report/compare_json.h"
 #include "report/html/page.h"
 #include "report/result_json.h"
 
@@ -207,6 +208,7 @@ int RunAudit(const std::vector<std::string>& files) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunRecord record = RecordOf("audit", dataset, seconds, ThreadsFor(FLAGS_threads));
   record.inputs = AllInputs(dataset, requirements);
+  record.methods = TimesOf(audit.comparison);
   const std::string result = ResultJson(audit.header, audit.estimate, machine.effects);
   AuditIdentity identity = IdentityOf(record, result);
   HistoryEntry entry(

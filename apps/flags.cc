@@ -159,7 +159,7 @@ DEFINE_string(history,
               "",
               "Append the calibration to this history, a new one if there is none: what went in, "
               "what came out, who and when (docs/history.md).");
-DEFINE_string(operator, "", "Who calibrates, as the history shall name them.");
+DEFINE_string(operator, "", "Who calibrates, as history and reports shall name them.");
 DEFINE_string(head,
               "",
               "verify: a hash that a report printed; the record that has it, and so all before it, "

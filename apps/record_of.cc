@@ -11,6 +11,7 @@
 #include "apps/command.h"
 #include "apps/dataset_files.h"
 #include "apps/flag_value.h"
+#include "apps/flags.h"
 #include "apps/host.h"
 #include "apps/version.h"
 
@@ -41,6 +42,8 @@ RunRecord RecordOf(std::string_view command,
                    int threads) {
   RunRecord record;
   record.version = VersionText();
+  record.revision = RevisionText();
+  record.operator_name = FLAGS_operator;
   record.call = fmt::format("hexcal {}", command);
   if (!inputs.empty()) record.call += " " + Quoted(inputs.front());
   for (const CommandFlag& flag : FindCommand(command)->flags) {

@@ -14,6 +14,7 @@ namespace hexcal {
 std::string VersionText() {
   const int fmt_major = FMT_VERSION / 10000, fmt_minor = FMT_VERSION / 100 % 100;
   std::string text = fmt::format("hexcal {}\n", HEXCAL_VERSION);
+  text += fmt::format("revision {}\n", RevisionText());
   text += fmt::format("Ceres Solver {}\n", CERES_VERSION_STRING);
   text += fmt::format(
       "Eigen {}.{}.{}\n", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);

@@ -5,7 +5,11 @@
 
 namespace hexcal {
 
-// "hexcal 0.1.0" and the libraries it was built with, a line each.
+// The commit that was built, "0123456789ab", "0123456789ab with changes" where files were changed
+// since; "unknown" of a build without git.
+std::string RevisionText();
+
+// "hexcal 0.1.0", "revision 0123456789ab" and the libraries it was built with, a line each.
 std::string VersionText();
 
 }  // namespace hexcal

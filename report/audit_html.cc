@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "report/audit_model.h"
 #include "report/audit_sections.h"
 #include "report/estimate_sections.h"
@@ -71,6 +73,24 @@ void AddVerdict(const Audit& audit, HtmlPage* page) {
   }
 }
 
+// What nobody said is said to be missing: an auditor asks for it.
+void AddWhoAndWhere(const Requirements& requirements, const RunRecord& record, HtmlTable* table) {
+  const auto is_stated = [&](std::string_view word) {
+    return std::any_of(requirements.identification.begin(),
+                       requirements.identification.end(),
+                       [&](const auto& entry) { return entry.first == word; });
+  };
+  if (!record.operator_name.empty())
+    table->rows.push_back(
+        {is_stated("operator") ? "operator (--operator)" : "operator", record.operator_name});
+  else if (!is_stated("operator"))
+    table->rows.push_back(
+        {"operator",
+         "not stated (identification: in the requirement file, or --operator with --history)"});
+  if (!is_stated("place"))
+    table->rows.push_back({"place", "not stated (identification: in the requirement file)"});
+}
+
 void AddIdentification(const AuditIdentity& identity,
                        const RunRecord& record,
                        const Audit& audit,
@@ -82,6 +102,11 @@ void AddIdentification(const AuditIdentity& identity,
   if (!audit.description.empty()) table.rows.push_back({"description", audit.description});
   for (const auto& [key, value] : audit.requirements.identification)
     table.rows.push_back({key, value});
+  AddWhoAndWhere(audit.requirements, record, &table);
+  table.rows.push_back({"program",
+                        fmt::format("{}, revision {}",
+                                    record.version.substr(0, record.version.find('\n')),
+                                    record.revision)});
   table.rows.push_back({"run", record.started_utc});
   table.rows.push_back(
       {"took", fmt::format("{:.3g} s, at most {} threads", record.seconds, record.threads)});
@@ -219,7 +244,7 @@ std::string AuditHtml(const AuditIdentity& identity,
   AddPoseDesign(audit, &page);
   AddModel(audit, &page);
   AddMounts(audit.estimate, &page);
-  AddLinearizedAgainstNonlinear(audit, &page);
+  AddLinearizedAgainstNonlinear(audit, record.methods, &page);
   AddGoodnessOfFit(audit, &page);
   AddMissingEffects(audit, &page);
   AddBudget(audit, &page);

@@ -120,9 +120,27 @@ void AddRepetition(const Audit& audit, HtmlPage* page) {
       "repetitions confirm (binomial, Clopper and Pearson).");
 }
 
+// As wall clock times differ from run to run, they are in run.json and here alone.
+void AddTimes(const std::vector<MethodTime>& times, HtmlPage* page) {
+  if (times.empty()) return;
+  HtmlTable table = {
+      {{"method"}, {"run time, ms", true}, {"iterations", true}, {"ms an iteration", true}}, {}};
+  for (const MethodTime& time : times)
+    table.rows.push_back(
+        {time.name,
+         fmt::format("{:.3g}", 1e3 * time.seconds),
+         time.iterations > 0 ? fmt::format("{}", time.iterations) : "–",
+         time.iterations > 0 ? fmt::format("{:.3g}", 1e3 * time.seconds / time.iterations) : "–"});
+  page->Heading("Run time");
+  page->Table(table);
+  page->Note("The fastest of some runs on the host named above; a dash for a closed form.");
+}
+
 }  // namespace
 
-void AddLinearizedAgainstNonlinear(const Audit& audit, HtmlPage* page) {
+void AddLinearizedAgainstNonlinear(const Audit& audit,
+                                   const std::vector<MethodTime>& times,
+                                   HtmlPage* page) {
   page->Section("Linearized against nonlinear");
   if (audit.grown)
     page->Paragraph(
@@ -130,6 +148,7 @@ void AddLinearizedAgainstNonlinear(const Audit& audit, HtmlPage* page) {
         "what "
         "is repeated below is the joint fit.");
   AddMethods(audit.comparison, page);
+  AddTimes(times, page);
   page->Heading("Side by side");
   page->Table(EstimateTable(audit));
   page->Note("The numbers of Eq. (2) by the poses, of T_B^W and of T_T^A.");

@@ -19,6 +19,7 @@ std::string RunJson(const RunRecord& record) {
   nlohmann::ordered_json run;
   run["format"] = "hexcal/run/1";
   run["versions"] = versions;
+  run["revision"] = record.revision;
   run["settings"] = nlohmann::ordered_json::object();
   for (const auto& [name, value] : record.settings) run["settings"][name] = value;
   run["inputs"] = record.inputs;

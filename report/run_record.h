@@ -32,6 +32,8 @@ struct HistoryMark {
 // Where a result comes from: what may differ between two runs that give the same result.
 struct RunRecord {
   std::string version;                                        // of hexcal and its libraries, lines
+  std::string revision = "unknown";                           // the commit that was built
+  std::string operator_name = {};                             // --operator
   std::vector<std::pair<std::string, std::string>> settings;  // flags and their values
   // Those settings that stand at a default which their value does not say, and what that is.
   std::vector<std::pair<std::string, std::string>> not_set;
@@ -41,7 +43,7 @@ struct RunRecord {
   double seconds = 0.0;
   int threads = 1;
   Host host = {};
-  std::vector<MethodTime> methods;     // hexcal compare
+  std::vector<MethodTime> methods;     // hexcal compare and audit
   std::optional<HistoryMark> history;  // with --history
 };
 

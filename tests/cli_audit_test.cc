@@ -80,6 +80,15 @@ TEST_F(CliAudit, LeavesItsFilesAndSaysWhatIsInThem) {
   EXPECT_EQ(Json::parse(Read("result.json"))["residual"], "marker");
   const Json run = Json::parse(Read("run.json"));
   EXPECT_EQ(run["settings"]["folds"], "2");
+  EXPECT_EQ(run["versions"][1], "revision " + run["revision"].get<std::string>());
+  EXPECT_THAT(Read("report.html"), HasSubstr(", revision " + run["revision"].get<std::string>()));
+  std::vector<std::string> timed;
+  for (const Json& method : run["methods"]) {
+    timed.push_back(method["name"]);
+    EXPECT_GT(method["seconds"], 0.0);
+    EXPECT_THAT(Read("report.html"), HasSubstr("<td>" + timed.back() + "</td>"));
+  }
+  EXPECT_THAT(timed, ::testing::IsSupersetOf({"paper", "nonlinear"}));
   EXPECT_GE(run["host"]["processors"].get<int>(), 1);
   EXPECT_THAT(Read("report.html"), HasSubstr(run["host"]["name"].get<std::string>()));
   EXPECT_THAT(Read("report.html"),

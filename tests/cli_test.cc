@@ -83,6 +83,7 @@ TEST(Cli, VersionNamesTheLibraries) {
   EXPECT_EQ(result.status, 0);
   EXPECT_THAT(result.out, StartsWith("hexcal "));
   EXPECT_THAT(result.out, HasSubstr("\nCeres Solver "));
+  EXPECT_THAT(result.out, HasSubstr("\nrevision "));
   EXPECT_THAT(result.err, IsEmpty());
 }
 
