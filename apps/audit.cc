@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/audit_repetition.h"
 #include "apps/audit_screening.h"
 #include "apps/calibrate_options.h"
 #include "apps/dataset_files.h"
@@ -108,9 +109,12 @@ Audit AuditDataset(const Dataset& dataset,
   compare.progress = [&bars](std::string_view label, long done, long of) {
     bars.Update(label, done, of);
   };
-  Comparison comparison = Compare(observations, InitialOf(dataset, options), compare);
-  const NoiseLevels levels = LevelsOf(observations, options.noise, comparison.reference);
   ResultHeader header = HeaderOf(dataset.name, options, by_markers);
+  AuditRepetition repetition(dataset, observations, options, header, estimate);
+  compare.repeat = [&](const MonteCarloOptions& repeat) { return repetition.Run(repeat); };
+  Comparison comparison = Compare(observations, InitialOf(dataset, options), compare);
+  const NoiseLevels levels =
+      LevelsOf(observations, options.noise, by_markers ? comparison.reference : estimate);
   header.readings = ReadingsOf(dataset);
   AuditInput input = {dataset,
                       observations,
@@ -121,6 +125,7 @@ Audit AuditDataset(const Dataset& dataset,
                       requirements,
                       earlier,
                       compare.seed};
+  input.repeated = repetition.repeated();
   ScreenFor(std::nullopt, &bars, &input);
   return MakeAudit(std::move(input));
 }

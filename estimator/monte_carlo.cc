@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/monte_carlo.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <future>
-#include <random>
 
-#include "residuals/pose_stream.h"
+#include "estimator/pose_repetition.h"
 
 namespace hexcal {
 namespace {
@@ -18,106 +16,10 @@ constexpr double kNormalFactor = 1.959963984540054;  // of a 95 % interval
 constexpr int kDigits = 2;
 // The draws are cut into so many blocks, whose scatter tells how still the limits stand.
 constexpr int kBlocks = 10;
-constexpr int kMaxSteps = 30;
-// Squared length of a step in standard deviations after which nothing is left to do.
-constexpr double kArrived = 1e-8;
 // Noise below so many roundings of the data is none.
 constexpr double kRoundings = 1e4;
 
 using Block = Repetition::Block;
-
-class Repeater final : public Repetition {
- public:
-  Repeater(const Observations& observations, const NoiseLevels& levels, const Estimate& estimate)
-      : rows_(observations.items),
-        mounts_(estimate.mounts),
-        weights_(PoseWeights::PerPose(rows_.size())) {
-    const std::size_t n = rows_.size();
-    predicted_.reserve(n), roots_.reserve(n), gains_.reserve(n);
-    Matrix12d normal = Matrix12d::Zero();
-    for (const Observation& o : rows_) {
-      const Matrix6d c = ErrorCovariance(o, observations, mounts_.platform_from_tool, levels);
-      const Eigen::LLT<Matrix6d> llt(c);
-      predicted_.push_back(mounts_.world_from_base * o.base_from_platform *
-                           mounts_.platform_from_tool);
-      roots_.push_back(llt.matrixL());
-      weights_.Add(c);
-      // At a perfect fit the error's derivative is -PaperJacobian, so that the linear estimator
-      // moves by N^-1 J' C^-1 e, e = root z.
-      const Matrix6x12d whitened =
-          llt.matrixL().solve(PaperJacobian(o.base_from_platform * mounts_.platform_from_tool));
-      normal += whitened.transpose() * whitened;
-      gains_.push_back(whitened.transpose());
-    }
-    const Matrix12d inverse = Eigen::LLT<Matrix12d>(normal).solve(Matrix12d::Identity());
-    for (auto& gain : gains_) gain = inverse * gain;
-    sigma_ = inverse.diagonal().cwiseSqrt();
-  }
-
-  const Eigen::VectorXd& sigma() const override { return sigma_; }
-
-  Block Run(int draws, std::uint64_t seed, std::size_t number) const override {
-    Block block;
-    block.estimator.resize(12, draws);
-    block.linear.resize(12, draws);
-    std::seed_seq words{seed & 0xffffffffU, seed >> 32, static_cast<std::uint64_t>(number)};
-    std::mt19937_64 rng(words);
-    for (int k = 0; k < draws; ++k) {
-      PoseBatch batch;
-      const Vector12d linear = Draw(rng, &batch);
-      block.linear.col(k) = linear;
-      BaseAndTool found = Moved(mounts_, linear);
-      block.not_converged += !Solve(batch, &found);
-      block.estimator.col(k) << Minus(found.world_from_base, mounts_.world_from_base),
-          Minus(found.platform_from_tool, mounts_.platform_from_tool);
-    }
-    return block;
-  }
-
- private:
-  static BaseAndTool Moved(const BaseAndTool& mounts, const Vector12d& step) {
-    return {Plus(mounts.world_from_base, Vector6d(step.head<6>())),
-            Plus(mounts.platform_from_tool, Vector6d(step.tail<6>()))};
-  }
-
-  // Fills the batch with one repetition and gives what the linear estimator makes of it.
-  Vector12d Draw(std::mt19937_64& rng, PoseBatch* batch) const {
-    std::normal_distribution<double> normal;
-    batch->Reserve(rows_.size());
-    Vector12d linear = Vector12d::Zero();
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      Vector6d z;
-      for (double& value : z) value = normal(rng);
-      batch->Add(rows_[i].base_from_platform, Plus(predicted_[i], Vector6d(roots_[i] * z)));
-      linear += gains_[i] * z;
-    }
-    return linear;
-  }
-
-  // Gauss-Newton steps until they are nothing.
-  bool Solve(const PoseBatch& batch, BaseAndTool* mounts) const {
-    const PoseStream stream(batch, weights_);
-    for (int k = 0; k < kMaxSteps; ++k) {
-      const NormalEquations equations = stream.At(*mounts);
-      const Matrix12d normal = equations.normal;
-      const Vector12d gradient = equations.gradient;
-      const Vector12d step = -Eigen::LLT<Matrix12d>(normal).solve(gradient);
-      const double size = -step.dot(gradient);
-      if (!std::isfinite(size)) return false;
-      *mounts = Moved(*mounts, step);
-      if (size < kArrived) return true;
-    }
-    return false;
-  }
-
-  const std::vector<Observation>& rows_;
-  const BaseAndTool& mounts_;
-  std::vector<Pose3d> predicted_;
-  std::vector<Matrix6d> roots_;  // of the covariances
-  std::vector<Eigen::Matrix<double, 12, 6>> gains_;
-  PoseWeights weights_;
-  Eigen::VectorXd sigma_;
-};
 
 // The ends of the probabilistically symmetric interval (JCGM 101, 7.7).
 std::pair<double, double> Ends(std::vector<double> values) {
@@ -217,7 +119,7 @@ PropagationCheck CheckPropagation(const Observations& observations,
   PropagationCheck check;
   check.why_not = WhyNotRepeated(observations, estimate);
   if (!check.why_not.empty()) return check;
-  return CheckRepetition(Repeater(observations, levels, estimate), options);
+  return CheckRepetition(PoseRepetition(observations, levels, estimate), options);
 }
 
 std::string WhyNotRepeated(const Observations& observations, const Estimate& estimate) {

@@ -63,6 +63,7 @@ class Repetition {
   virtual Block Run(int draws, std::uint64_t seed, std::size_t number) const = 0;
 };
 
+// Of the weighted least-squares fit by poses (estimator/pose_repetition.h has the others).
 // The limits are those of the draws, less what the linear estimator, whose limits are known, makes
 // of the same draws (control variates): what is left is the work of nonlinearity alone, and stands
 // still after far fewer draws than plain ones need.

@@ -25,13 +25,20 @@ struct PoseCheck {
 
 // For every pose that the others check, by its deletion error (estimator/deletion.h). Smallest
 // errors: the test of FindOutliers at alpha for all poses together finds them with that power.
-// levels: where the dataset states no noise. Reference: W. Baarda, A Testing Procedure for Use in
-// Geodetic Networks (1968), for six dimensions at a time.
+// levels: where the dataset states no noise. weighted: how the fit of these mounts weighed the
+// poses; of a pose of weight 0 the fit has seen nothing, and it is compared with the prediction as
+// it is. Reference: W. Baarda, A Testing Procedure for Use in Geodetic Networks (1968), for six
+// dimensions at a time.
+struct WeightedAs {
+  std::vector<double> weights;  // of each pose, held; empty: 1
+  double variance = 1.0;        // of the 12, over that of the weights (Huber 1981, 7.6)
+};
 std::vector<PoseCheck> CheckPoses(const Observations& observations,
                                   const BaseAndTool& mounts,
                                   const NoiseLevels& levels,
                                   double alpha,
-                                  double power);
+                                  double power,
+                                  const WeightedAs& weighted = {});
 
 // The same with the effects of a model fitted along with base and tool. What a pose's markers say
 // within their bodies stays in the fit without it.

@@ -80,7 +80,8 @@ TargetCheck CheckTarget(const Estimate& estimate,
                         const Eigen::Vector3d& p_in_tool,
                         double probability,
                         std::uint64_t seed,
-                        const std::shared_ptr<const GrownTarget>& grown) {
+                        const std::shared_ptr<const GrownTarget>& grown,
+                        double stated) {
   CHECK_GT(propagation.estimates.cols(), 0) << "the draws were not kept";
   Estimate known = estimate;
   known.covariance = estimate.covariance_unscaled;
@@ -122,8 +123,12 @@ TargetCheck CheckTarget(const Estimate& estimate,
   check.quantile = first_order.Quantile(probability);
   check.repeated_rms = std::sqrt(squares / n);
   check.repeated_quantile = At(lengths, probability);
-  check.inside = static_cast<int>(std::upper_bound(lengths.begin(), lengths.end(), check.quantile) -
-                                  lengths.begin());
+  const auto count_to = [&](double length) {
+    return static_cast<int>(std::upper_bound(lengths.begin(), lengths.end(), length) -
+                            lengths.begin());
+  };
+  check.inside = count_to(check.quantile);
+  check.inside_stated = count_to(stated);
   // By the order statistics two standard errors of a count to either side.
   const double counts = 2.0 * std::sqrt(probability * (1.0 - probability) / n);
   check.standard_error =

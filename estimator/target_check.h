@@ -18,11 +18,13 @@ struct TargetCheck {
   double standard_error = 0.0;                     // of repeated_quantile
   double tolerance = 0.0;                          // half a unit of the RMS's second digit
   int inside = 0;                                  // draws no longer than quantile
+  int inside_stated = 0;                           // draws no longer than the stated length
   bool agrees = false;  // quantiles differ by no more than tolerance and two standard errors
 };
 
 // propagation: with its draws kept, of the same estimate, or of the joint fit of `grown`. The place
-// is no row of the dataset. Noise counts as known on both sides.
+// is no row of the dataset. Noise counts as known on both sides: covariance_unscaled. stated: the
+// length that is to hold that share of the draws, as it was stated of the place, m.
 TargetCheck CheckTarget(const Estimate& estimate,
                         const std::vector<ErrorSource>& sources,
                         const PropagationCheck& propagation,
@@ -30,6 +32,7 @@ TargetCheck CheckTarget(const Estimate& estimate,
                         const Eigen::Vector3d& p_in_tool,
                         double probability,
                         std::uint64_t seed,
-                        const std::shared_ptr<const GrownTarget>& grown = nullptr);
+                        const std::shared_ptr<const GrownTarget>& grown = nullptr,
+                        double stated = 0.0);
 
 }  // namespace hexcal

@@ -128,14 +128,15 @@ PointReport ReportPoint(const Audit& audit,
   report.budget = BudgetOf(audit, point, pose);
   const PropagationCheck& propagation = audit.comparison.propagation;
   if (propagation.done)
-    report.check = CheckTarget(audit.grown ? audit.estimate : audit.comparison.reference,
+    report.check = CheckTarget(audit.repeated.estimate,
                                sources,
                                propagation,
                                pose,
                                point.p_in_tool,
                                kProbability,
                                input.seed,
-                               audit.grown);
+                               audit.grown,
+                               report.worst.length_95);
   report.map = MapAccuracy(error, point.p_in_tool, audit.workspace, input.dataset, kProbability);
   return report;
 }
@@ -179,6 +180,24 @@ std::vector<std::string> DoubtsOf(const Audit& audit) {
   return doubts;
 }
 
+// How the fit has weighed the poses: those that were rejected by nothing.
+WeightedAs WeightedAsIn(const AuditInput& input, const Estimate& estimate) {
+  WeightedAs weighted;
+  for (const PoseResult& pose : estimate.poses) weighted.weights.push_back(pose.weight);
+  if (input.header.loss.kind != LossKind::kNone)
+    weighted.variance =
+        LossCovarianceFactor(input.observations, estimate.mounts, input.levels, input.header.loss);
+  return weighted;
+}
+
+RepeatedAs UsuallyRepeated(const Audit& audit) {
+  if (audit.grown)
+    return {audit.estimate, true, "base, tool and the effects of the model together"};
+  const bool is_audits = audit.header.solver == "nonlinear" && audit.header.residual == "pose" &&
+                         audit.header.loss.kind == LossKind::kNone;
+  return {audit.comparison.reference, is_audits, "the nonlinear fit by poses"};
+}
+
 }  // namespace
 
 std::string_view NameOf(Compliance compliance) {
@@ -215,6 +234,7 @@ Audit MakeAudit(AuditInput input) {
   audit.grown = input.grown;
   audit.missing = std::move(input.missing);
   audit.why_not_screened = std::move(input.why_not_screened);
+  audit.repeated = input.repeated ? std::move(*input.repeated) : UsuallyRepeated(audit);
   audit.robot_is_stated = audit.requirements.robot.has_value();
   if (audit.robot_is_stated) audit.sources.push_back(audit.requirements.robot->source);
   for (const StatedSource& stated : audit.requirements.sources)
@@ -229,10 +249,13 @@ Audit MakeAudit(AuditInput input) {
   audit.correlations = StrongCorrelations(audit.estimate);
   audit.bodies = BodiesOf(input.dataset, audit.estimate, audit);
   if (audit.estimate.IsTrustworthy()) {
-    audit.poses =
-        audit.grown
-            ? CheckPoses(audit.grown->solution(), kAlpha, kPower)
-            : CheckPoses(input.observations, audit.estimate.mounts, input.levels, kAlpha, kPower);
+    audit.poses = audit.grown ? CheckPoses(audit.grown->solution(), kAlpha, kPower)
+                              : CheckPoses(input.observations,
+                                           audit.estimate.mounts,
+                                           input.levels,
+                                           kAlpha,
+                                           kPower,
+                                           WeightedAsIn(input, audit.estimate));
     audit.held_out = HeldOutTestOf(audit.poses);
   }
   std::vector<Place> places = GridOf(audit.workspace, input.dataset);

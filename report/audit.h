@@ -20,6 +20,7 @@
 #include "report/left_over.h"
 #include "report/linearity.h"
 #include "report/pose_design.h"
+#include "report/repeated_as.h"
 #include "report/requirement.h"
 #include "report/result_json.h"
 #include "report/row_counts.h"
@@ -87,6 +88,7 @@ struct Audit {
   bool robot_is_stated = false;
   Estimate estimate;
   Comparison comparison;
+  RepeatedAs repeated;         // what the comparison's propagation is of
   std::vector<RowCount> rows;  // of the inputs
   PoseDesign design;
   Linearity linearity;
@@ -124,6 +126,8 @@ struct AuditInput {
   // At the requirements' points, or at the origin of frame T; else why it was not made.
   std::optional<Screening> missing = std::nullopt;
   std::string why_not_screened = {};
+  // What the comparison's propagation repeats; nothing: its reference, or the joint fit of grown.
+  std::optional<RepeatedAs> repeated = {};
 };
 
 Audit MakeAudit(AuditInput input);

@@ -88,6 +88,12 @@ void AddValidation(const Audit& audit, HtmlPage* page) {
                   held.inside,
                   held.poses,
                   held.fewest));
+  if (audit.header.loss.kind != LossKind::kNone)
+    page->Note(
+        "The others weigh as in the fit. What the loss weighs down counts here in full: outliers "
+        "lie outside.");
+  if (audit.header.error == "paper")
+    page->Note("What a pose has moved the fit by is reckoned as of weights by the noise.");
   page->Paragraph(
       fmt::format("Coverage of the 95 % regions: {}, the share that was achieved and the 95 % "
                   "limits of its probability that so many poses confirm (binomial, Clopper and "

@@ -52,6 +52,7 @@ Json CheckObject(const TargetCheck& check) {
           {"standard_error", check.standard_error},
           {"tolerance", check.tolerance},
           {"coverage", JsonCoverage(CoverageOf(check.inside, check.draws, 0.95))},
+          {"stated_coverage", JsonCoverage(CoverageOf(check.inside_stated, check.draws, 0.95))},
           {"agrees", check.agrees}};
 }
 
@@ -175,6 +176,9 @@ Json AuditObject(const AuditIdentity& identity, const Audit& audit) {
   const PropagationCheck& propagation = audit.comparison.propagation;
   json["propagation"] = {{"done", propagation.done},
                          {"why_not", propagation.why_not},
+                         {"repeated", propagation.done ? Json(audit.repeated.words) : Json()},
+                         {"repeated_is_fit", propagation.done && audit.repeated.is_audits},
+                         {"not_converged", propagation.not_converged},
                          {"draws", propagation.draws},
                          {"stable", propagation.stable},
                          {"validated", propagation.validated}};

@@ -11,7 +11,7 @@
 namespace hexcal {
 namespace {
 
-std::string PointLines(const PointReport& report) {
+std::string PointLines(const PointReport& report, const RepeatedAs& repeated) {
   std::string text =
       fmt::format("  {}: the error is not longer than, with 95 %\n", report.point.name);
   text += fmt::format("    {:<15}{} (RMS {})\n",
@@ -29,8 +29,9 @@ std::string PointLines(const PointReport& report) {
                         SizeText(row.contribution, "m"),
                         ShareText(row.share));
   if (report.check)
-    text += fmt::format("    by {} repetitions {} ({} by first order, noise as known): {}\n",
+    text += fmt::format("    by {} repetitions{} {} ({} by first order, noise as known): {}\n",
                         report.check->draws,
+                        repeated.is_audits ? "" : " of " + repeated.words,
                         SizeText(report.check->repeated_quantile, "m"),
                         SizeText(report.check->quantile, "m"),
                         report.check->agrees ? "they agree" : "they do NOT agree");
@@ -75,7 +76,7 @@ std::string AuditTable(const Audit& audit) {
                         NameOf(decision.compliance),
                         decision.requirement.name,
                         decision.reason);
-  for (const PointReport& report : audit.points) text += PointLines(report) + "\n";
+  for (const PointReport& report : audit.points) text += PointLines(report, audit.repeated) + "\n";
   text += GlobalTestLines(audit.global, estimate);
   if (audit.held_out.poses > 0)
     text +=

@@ -58,6 +58,10 @@ void AddPropagation(const PropagationCheck& propagation, HtmlPage* page) {
                   propagation.validated ? "validated for all 12 parameters"
                                         : "not validated for every parameter",
                   propagation.stable ? "" : " (the repetitions were too few to be sure of that)"));
+  if (propagation.not_converged > 0)
+    page->Paragraph(
+        fmt::format("{} of the repetitions did not converge; where they ended counts all the same.",
+                    propagation.not_converged));
 }
 
 }  // namespace hexcal

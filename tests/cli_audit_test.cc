@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <array>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -102,16 +104,41 @@ TEST_F(CliAudit, LeavesItsFilesAndSaysWhatIsInThem) {
 TEST_F(CliAudit, TheReportHasTheEstimatesOfEachSolution) {
   ASSERT_EQ(Audit({}).status, 0);
   std::string row = "<td>base x, mm</td>";
-  for (const char* solver : {"--solver=nonlinear", "--solver=linearized"}) {
-    const ProgramResult found =
-        RunHexcal({{"calibrate", kExample + "dataset.yaml", solver, "--residual=pose", "--out=c"},
-                   folder.Path("")});
+  const std::array<std::vector<std::string>, 3> ways = {{{"--residual=marker"},  // the audit's own
+                                                         {"--residual=pose"},
+                                                         {"--solver=linearized"}}};
+  for (const std::vector<std::string>& way : ways) {
+    std::vector<std::string> args = {"calibrate", kExample + "dataset.yaml", "--out=c"};
+    args.insert(args.end(), way.begin(), way.end());
+    const ProgramResult found = RunHexcal({args, folder.Path("")});
     ASSERT_EQ(found.status, 0) << found.err;
     const Json result = Json::parse(folder.Read("c/neurobot/result.json"));
     row += fmt::format("<td class=\"number\">{:.4f}</td>",
                        1e3 * result["world_from_base"]["xyz"][0].get<double>());
   }
   EXPECT_THAT(Read("report.html"), HasSubstr(row));
+}
+
+// Page, table and audit.json name the fit, what of it is tested and what is repeated.
+TEST_F(CliAudit, SaysWhichFitIsTestedAndRepeated) {
+  const ProgramResult plain = Audit({});
+  EXPECT_THAT(plain.out, HasSubstr("in place of that by the readings of all markers"));
+  EXPECT_EQ(Json::parse(Read("audit.json"))["propagation"]["repeated_is_fit"], false);
+  for (const char* way : {"--loss=tukey", "--solver=linearized"}) {
+    const ProgramResult found = Audit({way});
+    const Json json = Json::parse(Read("audit.json"));
+    EXPECT_EQ(json["propagation"]["repeated_is_fit"], true);
+    EXPECT_EQ(json["global_test"]["tested"], "least_squares");
+    EXPECT_THAT(found.out, HasSubstr("by least squares, none weighted down"));
+    EXPECT_THAT(Read("report.html"), HasSubstr("has no chi-square distribution and is not tested"));
+    EXPECT_THAT(Read("report.html"),
+                HasSubstr("Repeated is the fit of this report: " +
+                          json["propagation"]["repeated"].get<std::string>().substr(0, 8)));
+  }
+  ASSERT_EQ(Audit({"--loss=tukey"}).status, 0);
+  EXPECT_THAT(Read("report.html"), HasSubstr("<li>Loss: Tukey&#39;s"));
+  EXPECT_EQ(Json::parse(Read("audit.json"))["fit"]["loss"], "tukey");
+  EXPECT_EQ(Json::parse(Read("result.json"))["loss"]["kind"], "tukey");
 }
 
 TEST_F(CliAudit, TheReportHasTheCallAsAShellReadsItBack) {

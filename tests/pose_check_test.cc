@@ -8,6 +8,7 @@
 #include "estimator/calibrate.h"
 #include "estimator/outliers.h"
 #include "testing/matchers.h"
+#include "testing/outliers.h"
 #include "testing/scenes.h"
 
 namespace hexcal {
@@ -77,6 +78,54 @@ TEST(PoseCheck, HeldOutErrorIsThatOfAFitWithoutThePose) {
                (checks[i].expected_position * checks[i].expected_position);
   }
   EXPECT_NEAR(squared / 12.0, 1.0, 0.6);
+}
+
+// Of weight 0 it has no part in the others, nor they in it.
+TEST(PoseCheck, APoseThatWasRejectedIsComparedWithThePredictionAsItIs) {
+  auto rng = SeededByTest();
+  auto rows = testing::HexapodObservations(rng, testing::AnyMounts(rng), 14);
+  testing::AddNoise(rng, testing::Isotropic(kNoise), &rows);
+  testing::Spoil(rng, testing::Spoilt::kBoth, 30.0, kNoise, &rows[3]);
+  const Observations all = testing::KnownNoise(rows, testing::Isotropic(kNoise));
+  rows.erase(rows.begin() + 3);
+  const Observations others = testing::KnownNoise(rows, testing::Isotropic(kNoise));
+  const BaseAndTool mounts = Calibrate(others, {}, {}).mounts;
+  WeightedAs weighted;
+  weighted.weights.assign(14, 1.0);
+  weighted.weights[3] = 0.0;
+  const auto checks = CheckPoses(all, mounts, {}, kAlpha, kPower, weighted);
+  const auto of_others = CheckPoses(others, mounts, {}, kAlpha, kPower);
+  ASSERT_EQ(checks.size(), 14u);
+  const Observation& o = all.items[3];
+  EXPECT_TRUE(testing::MatrixNear(
+      checks[3].held_out, PoseError(mounts, o.base_from_platform, o.world_from_tool), 1e-14));
+  EXPECT_EQ(checks[3].redundancy, 1.0);
+  EXPECT_GT(checks[3].squared, 1000.0);
+  for (int i = 0; i < 13; ++i)
+    EXPECT_NEAR(checks[i < 3 ? i : i + 1].squared / of_others[i].squared, 1.0, 1e-9);
+}
+
+// Under a loss a clean pose is as far from what the others predict as is stated: 6 squared sigmas.
+TEST(PoseCheck, UnderALossTheOthersPredictAsFarAsStated) {
+  auto rng = SeededByTest();
+  CalibrateOptions options;
+  options.loss = {LossKind::kTukey, 4.0};
+  double squared = 0.0;
+  int count = 0;
+  for (int k = 0; k < 60; ++k) {
+    auto rows = testing::HexapodObservations(rng, testing::AnyMounts(rng), 24);
+    testing::AddNoise(rng, testing::Isotropic(kNoise), &rows);
+    const Observations all = testing::KnownNoise(rows, testing::Isotropic(kNoise));
+    const Estimate estimate = Calibrate(all, {}, options);
+    WeightedAs weighted;
+    for (const PoseResult& pose : estimate.poses) weighted.weights.push_back(pose.weight);
+    weighted.variance = LossCovarianceFactor(all, estimate.mounts, {}, options.loss);
+    for (const PoseCheck& check : CheckPoses(all, estimate.mounts, {}, kAlpha, kPower, weighted)) {
+      squared += check.squared;
+      ++count;
+    }
+  }
+  EXPECT_NEAR(squared / count, 6.0, 0.6);
 }
 
 }  // namespace
