@@ -15,7 +15,8 @@
 namespace hexcal {
 namespace {
 
-constexpr const char* kNumbers[6] = {"x, mm", "y, mm", "z, mm", "rx, mrad", "ry, mrad", "rz, mrad"};
+constexpr const char* kNumbers[6] = {
+    "x,\u00a0mm", "y,\u00a0mm", "z,\u00a0mm", "rx,\u00a0mrad", "ry,\u00a0mrad", "rz,\u00a0mrad"};
 
 // Mounts as the six numbers of Eq. (2), each with one standard deviation.
 HtmlTable MountTable(const Estimate& estimate, bool is_base) {
@@ -26,11 +27,11 @@ HtmlTable MountTable(const Estimate& estimate, bool is_base) {
   const Vector6d sigmas = PoseVectorSigma(pose, estimate.covariance.block<6, 6>(first, first));
   HtmlTable table = {{{""},
                       {"value of Eq. (2)", true},
-                      {"its standard uncertainty", true},
-                      {"along own axis: standard", true},
-                      {"expanded, p = 95 %", true},
-                      {"coverage factor k", true},
-                      {"degrees of freedom", true}},
+                      {"u of it", true},
+                      {"u along own axis", true},
+                      {"U, p = 95 %", true},
+                      {"k", true},
+                      {"ν", true}},
                      {}};
   for (int i = 0; i < 6; ++i) {
     const int k = first + i;
@@ -69,11 +70,11 @@ void AddMounts(const Estimate& estimate, HtmlPage* page) {
   page->Table(MountTable(estimate, false));
   page->Note(QuaternionText(estimate.mounts.platform_from_tool));
   page->Note(
-      "Values and the first uncertainty are of the six numbers of Eq. (2). The others are of a "
-      "small motion along and about the mount's own axes, as in the covariance of result.json. "
-      "Expanded: k times the standard uncertainty before it; the truth lies within it with p = "
-      "95 %, each number by itself (Student's t; where few poses told the noise, k has in it what "
-      "the weights' own error adds).");
+      "Values and the first standard uncertainty u are of the six numbers of Eq. (2). The second u "
+      "is of a small motion along or about the mount's own axis, as in the covariance of "
+      "result.json, and what follows is of it. Expanded uncertainty U = k u: the truth lies within "
+      "it with p = 95 %, each number by itself (coverage factor k of Student's t with ν degrees of "
+      "freedom; where few poses told the noise, k has in it what the weights' own error adds).");
   page->Figure(CorrelationChart(estimate));
   std::vector<std::string> strong;
   for (const Correlation& c : StrongCorrelations(estimate))
