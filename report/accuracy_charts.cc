@@ -82,12 +82,15 @@ Chart MapChart(const PointReport& report) {
   for (const double x : map.x)
     chart.table.columns.push_back({fmt::format("x {:.4g}", kMilli * x), true});
   const int heights = static_cast<int>(map.z.size());
+  double largest = 0.0;
   for (int k = 0; k < heights; ++k) {
     Json rows = Json::array();
     for (std::size_t j = 0; j < map.y.size(); ++j) {
       rows.push_back(Scaled(map.lengths[k][j]));
       std::vector<std::string> texts = {fmt::format("{:.4g}", kMilli * map.z[k]),
                                         fmt::format("{:.4g}", kMilli * map.y[j])};
+      for (const double length : map.lengths[k][j])
+        if (std::isfinite(length)) largest = std::max(largest, kMilli * length);
       for (const double length : map.lengths[k][j])
         texts.push_back(std::isfinite(length) ? fmt::format("{:.4f}", kMilli * length) : "–");
       chart.table.rows.push_back(texts);
@@ -114,7 +117,8 @@ Chart MapChart(const PointReport& report) {
   Json scale = Json::array();
   scale.push_back(Json::array({0.0, "@middle"}));
   scale.push_back(Json::array({1.0, "@high"}));
-  chart.layout["coloraxis"] = {{"cmin", 0},
+  chart.layout["coloraxis"] = {{"cmin", 0},  // which plotly heeds with a cmax alone
+                               {"cmax", largest > 0.0 ? largest : 1.0},
                                {"colorscale", scale},
                                {"colorbar", {{"title", {{"text", "mm"}}}, {"thickness", 12}}}};
   return chart;

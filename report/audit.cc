@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "estimator/quantiles.h"
 #include "estimator/registration_error.h"
@@ -56,6 +57,17 @@ int FewestInside(int n) {
     ++k;
   }
   return k;
+}
+
+// A pose that was left out is no test of a model that is not to explain it.
+std::vector<PoseCheck> UsedOf(const std::vector<PoseCheck>& poses, const Estimate& estimate) {
+  std::set<std::string> left_out;
+  for (const PoseResult& pose : estimate.poses)
+    if (!(pose.weight > 0.0)) left_out.insert(pose.label);
+  std::vector<PoseCheck> used;
+  for (const PoseCheck& pose : poses)
+    if (left_out.count(pose.label) == 0) used.push_back(pose);
+  return used;
 }
 
 HeldOutTest HeldOutTestOf(const std::vector<PoseCheck>& poses) {
@@ -256,7 +268,7 @@ Audit MakeAudit(AuditInput input) {
                                            kAlpha,
                                            kPower,
                                            WeightedAsIn(input, audit.estimate));
-    audit.held_out = HeldOutTestOf(audit.poses);
+    audit.held_out = HeldOutTestOf(UsedOf(audit.poses, audit.estimate));
   }
   std::vector<Place> places = GridOf(audit.workspace, input.dataset);
   if (audit.grown) KeepReached(*audit.grown, &places);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "report/audit_sections.h"
 #include "report/estimate_charts.h"
 #include "report/marker_charts.h"
@@ -25,6 +27,12 @@ void AddOutliers(const Audit& audit, HtmlPage* page) {
   }
   if (!table.rows.empty()) page->Table(table);
   if (!audit.poses.empty()) page->Figure(SmallestChart(audit.poses));
+}
+
+std::ptrdiff_t CountLeftOut(const Estimate& estimate) {
+  return std::count_if(estimate.poses.begin(), estimate.poses.end(), [](const PoseResult& pose) {
+    return !(pose.weight > 0.0);
+  });
 }
 
 HtmlTable BodyTable(const Audit& audit) {
@@ -60,6 +68,10 @@ void AddGoodnessOfFit(const Audit& audit, HtmlPage* page) {
       "A good fit alone says little about the error of a point of the tool: that is in the "
       "sections "
       "on the budget and on the workspace.");
+  if (CountLeftOut(estimate) > 0)
+    page->Note(
+        "Poses that were left out are in the pictures of residuals, where they stand apart; no "
+        "figure (chi-square, RMS, a marker's mean, held-out poses) has them in it.");
   AddResidualPictures(audit.left_over.poses, audit.scene, page);
   AddMarkers(audit.left_over, page);
   AddOutliers(audit, page);
@@ -94,6 +106,15 @@ void AddValidation(const Audit& audit, HtmlPage* page) {
         "lie outside.");
   if (audit.header.error == "paper")
     page->Note("What a pose has moved the fit by is reckoned as of weights by the noise.");
+  const auto left_out = CountLeftOut(audit.estimate);
+  if (left_out > 0)
+    page->Paragraph(fmt::format(
+        "{} left out of the fit, predict{} nothing and {} not among those {}; the picture has {}.",
+        left_out == 1 ? "A pose was" : fmt::format("{} poses were", left_out),
+        left_out == 1 ? "s" : "",
+        left_out == 1 ? "is" : "are",
+        held.poses,
+        left_out == 1 ? "it" : "them"));
   page->Paragraph(
       fmt::format("Coverage of the 95 % regions: {}, the share that was achieved and the 95 % "
                   "limits of its probability that so many poses confirm (binomial, Clopper and "

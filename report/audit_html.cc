@@ -252,7 +252,13 @@ std::string AuditHtml(const AuditIdentity& identity,
   AddAccuracy(audit, &page);
   AddChange(audit, &page);
   if (identity.log) AddChangeLog(*identity.log, &page);
-  AddReproduction(record, audit.estimate.warnings, "result.json, model.yaml and audit.json", &page);
+  AddReproduction(record,
+                  audit.estimate.warnings,
+                  identity.log
+                      ? "result.json, model.yaml and (but for its key history, which grows "
+                        "with the store) audit.json"
+                      : "result.json, model.yaml and audit.json",
+                  &page);
   AddData(identity, audit, result, &page);
   AddGlossary(&page);
   AddSignatures(identity, &page);

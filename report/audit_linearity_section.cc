@@ -121,8 +121,11 @@ void AddRepetition(const Audit& audit, HtmlPage* page) {
       "RMS "
       "ratio: by repetition, by first order. Covered: the share of the repetitions that are no "
       "longer than by first order, and the 95 % limits of its probability that so many "
-      "repetitions confirm (binomial, Clopper and Pearson). As stated: of the length that the "
-      "budget and the workspace give, in which the noise may be estimated.");
+      "repetitions confirm (binomial, Clopper and Pearson): 95 % outside of them is more than "
+      "chance. Agree: the two lengths differ by no more than half a unit in the second digit of "
+      "the RMS and two standard errors. Limits that leave out 95 % where the lengths agree show a "
+      "difference that is there, but too small to matter. As stated: of the length that the budget "
+      "and the workspace give, in which the noise may be estimated.");
 }
 
 // As wall clock times differ from run to run, they are in run.json and here alone.

@@ -32,10 +32,23 @@ Json LogAxis(const std::string& title, const std::vector<double>& values) {
   }
   Json axis = OpenAxis(title);
   axis["type"] = "log";
-  if (low > 0.0 && std::log10(high / low) > kManyDecades)
+  if (!(low > 0.0) || std::log10(high / low) > kManyDecades) {
     axis["dtick"] = 1;  // powers of ten
-  else
-    axis["dtick"] = "D2";  // 1, 2 and 5 times these
+    return axis;
+  }
+  // 1, 2 and 5 times these, with every digit: plotly alone would write 2 for 0.2.
+  Json values_of_ticks = Json::array(), texts = Json::array();
+  for (int power = static_cast<int>(std::floor(std::log10(low))) - 1;
+       std::pow(10.0, power) <= 10.0 * high;
+       ++power)
+    for (const int digit : {1, 2, 5}) {
+      const std::string text = fmt::format("{:g}", digit * std::pow(10.0, power));
+      values_of_ticks.push_back(digit * std::pow(10.0, power));
+      texts.push_back(text);
+    }
+  axis["tickmode"] = "array";
+  axis["tickvals"] = values_of_ticks;
+  axis["ticktext"] = texts;
   return axis;
 }
 

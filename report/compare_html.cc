@@ -86,8 +86,15 @@ std::string CompareHtml(const std::string& dataset,
                : certificate.certified    ? Tone::kGood
                                           : Tone::kWarn,
                "verdict",
-               certificate.certified ? "certified" : "not certified",
-               "Of the nonlinear solution: " + certificate.why + ".");
+               !certificate.certified ? "not certified"
+               : certificate.exact    ? "certified"
+                                      : "certified for even weights",
+               (certificate.exact
+                    ? "Of the nonlinear solution, with its own weights: "
+                    : "Not of the problem that the solution on this page solves, whose weights "
+                      "differ by axis or pose, but of the same poses with one weight for all "
+                      "coordinates of a pose and one for its angles: ") +
+                   certificate.why + ".");
   page.Section("The methods");
   AddMethods(comparison, &page);
   AddMaps(comparison, &page);

@@ -174,6 +174,7 @@ LeftOver MakeLeftOver(const Dataset& dataset,
       marker.label = misfit.marker;
       marker.residuals.push_back(misfit.residual);
       marker.pose_of_residual.push_back(i);
+      marker.used.push_back(estimate.poses[i].weight > 0.0);
       if (!(estimate.poses[i].weight > 0.0)) continue;
       ++marker.poses;
       marker.rms += misfit.residual.squaredNorm();

@@ -22,6 +22,7 @@ struct MarkerLeftOver {
   // rejected poses' too.
   std::vector<Eigen::Vector3d> residuals;
   std::vector<std::size_t> pose_of_residual;
+  std::vector<bool> used;  // false: of a rejected pose
 };
 
 // What is left over, beside what the estimate itself says of it.

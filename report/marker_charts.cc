@@ -71,16 +71,16 @@ constexpr const char* kShapes[4] = {"circle", "diamond", "triangle-up", "square"
 
 // Where a marker's residual is off along one axis of the tracker.
 Json AxisTrace(const MarkerLeftOver& marker, std::size_t number, int axis, std::size_t stride) {
-  Json order = Json::array(), values = Json::array();
+  Json order = Json::array(), values = Json::array(), symbols = Json::array();
   for (std::size_t i = 0; i < marker.residuals.size(); i += stride) {
+    symbols.push_back(marker.used[i] ? kShapes[(number / 8) % 4] : "x-thin-open");
     order.push_back(marker.pose_of_residual[i] + 1);
     values.push_back(kMilli * marker.residuals[i][axis]);
   }
   const std::string label = EscapeLabel(marker.label);
   Json trace = DotTrace(label.c_str(), order, values, Json::array(), false, axis + 1);
   trace.erase("text");
-  trace["marker"] = {
-      {"color", kHues[number % 8]}, {"symbol", kShapes[(number / 8) % 4]}, {"size", 5}};
+  trace["marker"] = {{"color", kHues[number % 8]}, {"symbol", symbols}, {"size", 5}};
   return trace;
 }
 
@@ -94,7 +94,13 @@ Chart ResidualChart(const std::vector<MarkerLeftOver>& markers) {
       "bands about zero, the same for all. A marker whose band is off zero is not where the body's "
       "description has it; the widest axis is the one that the tracker sees least well.";
   std::size_t count = 0;
-  for (const MarkerLeftOver& marker : markers) count += marker.residuals.size();
+  bool is_any_left_out = false;
+  for (const MarkerLeftOver& marker : markers) {
+    count += marker.residuals.size();
+    is_any_left_out |= std::count(marker.used.begin(), marker.used.end(), false) > 0;
+  }
+  if (is_any_left_out)
+    chart.shows += " A thin cross is of a pose that was left out; the table is without it.";
   const std::size_t stride = StrideOf(count);
   if (stride > 1) chart.shows += fmt::format(" One residual in {} is drawn.", stride);
   constexpr const char* kAxes[3] = {"x, mm", "y, mm", "z, mm"};
@@ -118,8 +124,11 @@ Chart ResidualChart(const std::vector<MarkerLeftOver>& markers) {
                  {}};
   for (const MarkerLeftOver& marker : markers) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero(), squares = Eigen::Vector3d::Zero();
-    const auto n = static_cast<double>(marker.residuals.size());
-    for (const Eigen::Vector3d& r : marker.residuals) mean += r / n, squares += r.cwiseAbs2() / n;
+    for (std::size_t i = 0; i < marker.residuals.size(); ++i) {
+      if (!marker.used[i]) continue;
+      mean += marker.residuals[i] / marker.poses;
+      squares += marker.residuals[i].cwiseAbs2() / marker.poses;
+    }
     std::vector<std::string> row = {marker.label};
     for (int k = 0; k < 3; ++k) row.push_back(fmt::format("{:.4f}", kMilli * mean[k]));
     for (int k = 0; k < 3; ++k)

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/rotation_angles.h"
+#include "report/accuracy_charts.h"
 #include "report/audit_json.h"
 #include "report/decide.h"
 #include "testing/audits.h"
@@ -137,6 +138,34 @@ TEST_F(AuditTest, HeldOutPosesAreAsExpected) {
   EXPECT_GE(audit.held_out.fewest, 50);
   EXPECT_NEAR(audit.held_out.rms_position / audit.held_out.expected_position, 1.0, 0.15);
   EXPECT_FALSE(audit.global.is_too_large || audit.global.is_too_small);
+}
+
+// What was left out neither predicts nor counts: the figures are as if it had never been measured.
+TEST_F(AuditTest, ARejectedPoseIsInNoFigureOfTheHeldOut) {
+  testing::AuditedExample rejected = *example, never = *example;
+  rejected.estimate.poses[7].weight = 0.0;
+  never.estimate.poses.erase(never.estimate.poses.begin() + 7);
+  never.observations.items.erase(never.observations.items.begin() + 7);
+  const Audit audit = MakeAudit(rejected.Input(std::nullopt));
+  const Audit expected = MakeAudit(never.Input(std::nullopt));
+  EXPECT_EQ(audit.poses.size(), 60u);
+  EXPECT_EQ(audit.held_out.poses, 59);
+  EXPECT_EQ(audit.held_out.inside, expected.held_out.inside);
+  EXPECT_NEAR(audit.held_out.rms_position / expected.held_out.rms_position, 1.0, 1e-9);
+  EXPECT_NEAR(audit.held_out.expected_position / expected.held_out.expected_position, 1.0, 1e-9);
+}
+
+TEST_F(AuditTest, ColoursOfTheMapBeginAtZero) {
+  const Audit audit = Make(5e-4);
+  const Chart chart = MapChart(audit.points[0]);
+  const auto& colours = chart.layout["coloraxis"];
+  double largest = 0.0;
+  for (const auto& height : audit.points[0].map.lengths)
+    for (const auto& row : height)
+      for (const double length : row)
+        if (length > largest) largest = length;
+  EXPECT_EQ(colours["cmin"], 0);
+  EXPECT_NEAR(colours["cmax"].get<double>(), 1e3 * largest, 1e-9);  // without it cmin is ignored
 }
 
 // Three sigmas of one parameter, of a difference of two equal uncertainties.

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
 #include "estimator/calibrate_markers.h"
 #include "report/calibrate_html.h"
+#include "report/marker_charts.h"
 #include "report/scene.h"
 #include "testing/marker_scenes.h"
 #include "testing/random.h"
@@ -65,6 +67,28 @@ TEST(LeftOver, RmsIsThatOfTheMarkersResiduals) {
   }
   EXPECT_NEAR(by_marker, squares, 1e-12 * squares);
   EXPECT_TRUE(found.left.poses.times.empty());
+}
+
+// The residuals of a pose that was left out are shown, but in no figure: a kilometre would show.
+TEST(LeftOver, AMarkersFiguresAreWithoutRejectedPoses) {
+  auto rng = SeededByTest();
+  const Dataset dataset = DrawMarkers(MakeMarkerTruth(rng, {}), 1);
+  const Observations observations = MakeObservations(dataset);
+  Estimate estimate =
+      CalibrateMarkers(observations, MakeMarkerObservations(dataset, observations), {}, {});
+  estimate.poses[3].weight = 0.0;
+  for (MarkerMisfit& misfit : estimate.poses[3].markers) misfit.residual.setConstant(1e3);
+  const LeftOver left = MakeLeftOver(dataset, observations, estimate);
+  for (const MarkerLeftOver& marker : left.markers) {
+    EXPECT_LT(marker.rms, 1e-2) << marker.label;
+    for (std::size_t k = 0; k < marker.used.size(); ++k)
+      EXPECT_EQ(marker.used[k], marker.pose_of_residual[k] != 3) << marker.label;
+  }
+  HtmlPage page("calibrate", "", "");
+  AddMarkers(left, &page);
+  EXPECT_NE(page.Html().find("A thin cross is of a pose that was left out"), std::string::npos);
+  const std::regex large("<td class=\"number\">-?[0-9]{3,}\\.");  // mm, of a mean or an RMS
+  EXPECT_FALSE(std::regex_search(page.Html(), large));
 }
 
 // What is expected of each marker is what repetition finds: hidden markers, three frames a pose and
