@@ -14,8 +14,7 @@ Chart BudgetChart(const PointReport& report) {
   Chart chart;
   chart.title = fmt::format("What the error of {} is made of", report.point.name);
   chart.shows =
-      "the part of the variance that each source has where the error is worst in the workspace, "
-      "and its contribution (mm, RMS) beside the bar.";
+      "the part of the variance that each source has where the error is worst in the workspace.";
   chart.good = "no single surprise: the longest bar is where better work pays.";
   Json names = Json::array(), shares = Json::array(), sizes = Json::array();
   for (const BudgetRow& row : report.budget.rows) {
@@ -28,13 +27,12 @@ Chart BudgetChart(const PointReport& report) {
                              {"y", names},
                              {"x", shares},
                              {"text", sizes},
-                             {"textposition", "auto"},
-                             {"cliponaxis", false},
+                             {"textposition", "none"},  // for narrow screens
+                             {"hovertemplate", "%{y}: %{x:.3g} %, %{text}<extra></extra>"},
                              {"marker", {{"color", "@after"}}}}});
   Json y = OpenAxis("");
   y["autorange"] = "reversed";
   Json x = Axis("% of the variance", true);
-  x["range"] = {0, 118};
   chart.layout = {{"height", 130 + 34 * static_cast<int>(report.budget.rows.size())},
                   {"xaxis", x},
                   {"yaxis", y}};

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "estimator/standard_residual.h"
+#include "geometry/rotation_angles.h"
 #include "model/hexapod.h"
 #include "model/leg_error.h"
 
@@ -42,6 +43,8 @@ PoseResiduals ResidualsOf(const Dataset& dataset,
   }
   residuals.after.standard = StandardResiduals(observations, estimate);
   residuals.times = TimesOf(dataset, residuals.labels);
+  for (std::size_t i = 0; i < estimate.poses.size(); ++i)
+    residuals.coordinates.push_back(VectorFromPose(observations.items[i].base_from_platform));
   if (!dataset.hexapod) return residuals;
   for (std::size_t i = 0; i < estimate.poses.size(); ++i) {
     const Pose3d& base_from_platform = observations.items[i].base_from_platform;
@@ -66,6 +69,9 @@ PoseResiduals ResidualsOf(const Dataset& dataset, const Discovery& discovery) {
     before.legs.push_back(pose.legs_before), residuals.after.legs.push_back(pose.legs_after);
     residuals.leg_lengths.push_back(*pose.leg_lengths);
   }
+  if (discovery.observations.items.size() == discovery.poses.size())
+    for (const Observation& observation : discovery.observations.items)
+      residuals.coordinates.push_back(VectorFromPose(observation.base_from_platform));
   if (!discovery.effects.empty()) residuals.before = std::move(before);
   residuals.times = TimesOf(dataset, residuals.labels);
   return residuals;

@@ -19,7 +19,8 @@ struct PoseResiduals {
     std::vector<Vector6d> legs;      // by how much legs would have to be longer, m; or empty
   };
   std::vector<std::string> labels;
-  std::vector<double> times;  // s; empty where none were recorded
+  std::vector<double> times;          // s; empty where none were recorded
+  std::vector<Vector6d> coordinates;  // of the reported poses, Eq. (2), m and rad; or empty
   State after;
   std::optional<State> before;        // with what discover started from, where it found effects
   std::vector<Vector6d> leg_lengths;  // of the reported poses, m; empty where no legs are known

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/residual_section.h"
 
+#include "report/coordinate_charts.h"
 #include "report/distribution_charts.h"
 #include "report/leg_charts.h"
 #include "report/residual_charts.h"
@@ -9,6 +10,7 @@ namespace hexcal {
 
 void AddResidualPictures(const PoseResiduals& residuals, const Scene& scene, HtmlPage* page) {
   page->Figures(ResidualCharts(residuals));
+  page->Figures(CoordinateCharts(residuals));
   page->Figure(SceneChart(scene));
   page->Figures(DistributionCharts(residuals));
   const std::vector<Chart> legs = LegCharts(residuals);
