@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 #include "estimator/quantiles.h"
 #include "estimator/registration_error.h"
@@ -57,17 +56,6 @@ int FewestInside(int n) {
     ++k;
   }
   return k;
-}
-
-// A pose that was left out is no test of a model that is not to explain it.
-std::vector<PoseCheck> UsedOf(const std::vector<PoseCheck>& poses, const Estimate& estimate) {
-  std::set<std::string> left_out;
-  for (const PoseResult& pose : estimate.poses)
-    if (!(pose.weight > 0.0)) left_out.insert(pose.label);
-  std::vector<PoseCheck> used;
-  for (const PoseCheck& pose : poses)
-    if (left_out.count(pose.label) == 0) used.push_back(pose);
-  return used;
 }
 
 HeldOutTest HeldOutTestOf(const std::vector<PoseCheck>& poses) {
@@ -149,6 +137,11 @@ PointReport ReportPoint(const Audit& audit,
                                input.seed,
                                audit.grown,
                                report.worst.length_95);
+  report.validation =
+      ValidatePoint(UsedOf(audit.poses, audit.estimate),
+                    audit.grown ? audit.grown->solution().cleaned : input.observations,
+                    audit.estimate.mounts,
+                    point.p_in_tool);
   report.map = MapAccuracy(error, point.p_in_tool, audit.workspace, input.dataset, kProbability);
   return report;
 }

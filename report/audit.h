@@ -19,6 +19,7 @@
 #include "report/global_test.h"
 #include "report/left_over.h"
 #include "report/linearity.h"
+#include "report/point_validation.h"
 #include "report/pose_design.h"
 #include "report/repeated_as.h"
 #include "report/requirement.h"
@@ -47,6 +48,7 @@ struct PointReport {
   PointAt centre, worst;
   Budget budget;                     // where it is worst
   std::optional<TargetCheck> check;  // there; nothing where the draws could not be made
+  PointValidation validation;
   AccuracyMap map;
 };
 

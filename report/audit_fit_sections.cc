@@ -124,6 +124,7 @@ void AddValidation(const Audit& audit, HtmlPage* page) {
                       ? "95 % is among them."
                       : "95 % is not among them: noise or model are not what they are taken for."));
   page->Figure(HeldOutChart(audit.poses));
+  AddBias(audit, page);
 }
 
 }  // namespace hexcal

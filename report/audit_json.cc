@@ -82,6 +82,7 @@ Json Points(const Audit& audit) {
                     {"worst", AtObject(report.worst)},
                     {"budget", JsonBudget(report.budget)},
                     {"calibration", JsonParameters(report.budget)},
+                    {"held_out", JsonValidation(report.validation)},
                     {"monte_carlo", report.check ? CheckObject(*report.check) : Json()}});
   }
   return list;

@@ -143,4 +143,19 @@ Json JsonParameters(const Budget& budget) {
   return {{"parameters", list}, {"correlations", JsonNumber(budget.correlations)}};
 }
 
+Json JsonValidation(const PointValidation& validation) {
+  Json repeated;
+  if (const auto& r = validation.repeated)
+    repeated = {{"poses", r->poses},
+                {"fewest_visits", r->fewest},
+                {"accuracy", JsonNumber(r->accuracy)},
+                {"repeatability", JsonNumber(r->repeatability)}};
+  return {{"poses", validation.poses},
+          {"bias", JsonList(validation.bias)},
+          {"bias_uncertainty", JsonList(validation.BiasUncertainty())},
+          {"precision", JsonList(validation.precision)},
+          {"rms", JsonNumber(validation.rms)},
+          {"repeated", repeated}};
+}
+
 }  // namespace hexcal

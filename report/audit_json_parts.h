@@ -16,6 +16,7 @@ nlohmann::ordered_json JsonRows(const Audit& audit);
 nlohmann::ordered_json JsonPoseDesign(const PoseDesign& design);
 nlohmann::ordered_json JsonBudget(const Budget& budget);
 nlohmann::ordered_json JsonParameters(const Budget& budget);
+nlohmann::ordered_json JsonValidation(const PointValidation& validation);
 nlohmann::ordered_json JsonLinearity(const Audit& audit);
 nlohmann::ordered_json JsonChange(const Audit& audit);  // which must have one
 

@@ -16,6 +16,7 @@ void AddLinearizedAgainstNonlinear(const Audit& audit,
 void AddGoodnessOfFit(const Audit& audit, HtmlPage* page);
 void AddBudget(const Audit& audit, HtmlPage* page);
 void AddValidation(const Audit& audit, HtmlPage* page);
+void AddBias(const Audit& audit, HtmlPage* page);  // what goes below that
 void AddAccuracy(const Audit& audit, HtmlPage* page);
 void AddChange(const Audit& audit, HtmlPage* page);
 
