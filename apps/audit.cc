@@ -126,6 +126,7 @@ Audit AuditDataset(const Dataset& dataset,
                       earlier,
                       compare.seed};
   input.repeated = repetition.repeated();
+  input.threads = options.threads;
   ScreenFor(std::nullopt, &bars, &input);
   return MakeAudit(std::move(input));
 }

@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/calibrate_markers.h"
 
+#include <fmt/format.h>
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "estimator/judge_markers.h"
 #include "estimator/marker_solver.h"
+#include "estimator/reading_check.h"
 
 namespace hexcal {
 
 namespace {
+
+constexpr std::size_t kMostNamed = 5;  // bad readings, in warnings of their own
 
 class MarkerCalibration {
  public:
@@ -34,6 +39,8 @@ class MarkerCalibration {
                      : Fit(some, Restricted(all_markers_, all_, some));
         });
     AddMisfitsOfRejected(&estimate);
+    if (options_.outliers != OutlierHandling::kNotSought && estimate.IsTrustworthy())
+      WarnOfReadings(&estimate);
     return estimate;
   }
 
@@ -68,6 +75,22 @@ class MarkerCalibration {
     const auto misfits = MisfitsByItem(all_markers_, all_.items.size(), solution_);
     for (std::size_t i = 0; i < misfits.size(); ++i)
       if (estimate->poses[i].weight == 0.0) estimate->poses[i].markers = misfits[i];
+  }
+
+  void WarnOfReadings(Estimate* estimate) const {
+    ReadingOptions options;
+    options.threads = options_.threads;
+    const std::vector<ReadingCheck> bad =
+        FindBadReadings(all_markers_, estimate->mounts, estimate->outliers, options).Bad();
+    for (std::size_t i = 0; i < std::min(bad.size(), kMostNamed); ++i)
+      estimate->warnings.push_back(fmt::format("the others contradict {}; it {}",
+                                               ReadingWords(bad[i], all_.items[bad[i].item].label),
+                                               estimate->poses[bad[i].item].weight > 0.0
+                                                   ? "is used all the same"
+                                                   : "is left out with its pose"));
+    if (bad.size() > kMostNamed)
+      estimate->warnings.push_back(fmt::format("the others contradict {} more readings of markers",
+                                               bad.size() - kMostNamed));
   }
 
   const Observations& all_;

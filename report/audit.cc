@@ -7,12 +7,12 @@
 #include <cmath>
 #include <limits>
 
-#include "estimator/quantiles.h"
 #include "estimator/registration_error.h"
 #include "geometry/rotation_angles.h"
 #include "report/audit_budget.h"
 #include "report/audit_model.h"
 #include "report/decide.h"
+#include "report/held_out.h"
 #include "report/missing_effects.h"
 
 namespace hexcal {
@@ -41,41 +41,6 @@ Requirements RequirementsOf(const AuditInput& input) {
   if (requirements.robot) requirements.robot->source.name = "robot's own error";
   if (requirements.points.empty()) requirements.points.push_back({"origin of frame T"});
   return requirements;
-}
-
-// The largest k with a probability of 99 % or more that k or more of n lie inside, each with 95 %
-// (the binomial distribution).
-int FewestInside(int n) {
-  constexpr double kSure = 0.99;
-  double of_this = std::pow(1.0 - kProbability, n);  // the probability of exactly k inside
-  double of_fewer = 0.0;
-  int k = 0;
-  while (k < n && of_fewer + of_this <= 1.0 - kSure) {
-    of_fewer += of_this;
-    of_this *= kProbability / (1.0 - kProbability) * (n - k) / (k + 1);
-    ++k;
-  }
-  return k;
-}
-
-HeldOutTest HeldOutTestOf(const std::vector<PoseCheck>& poses) {
-  HeldOutTest test;
-  test.poses = static_cast<int>(poses.size());
-  test.fewest = FewestInside(test.poses);
-  const double limit = ChiSquareQuantile(kProbability, 6.0);
-  Eigen::Vector4d squares = Eigen::Vector4d::Zero();
-  for (const PoseCheck& pose : poses) {
-    test.inside += pose.squared <= limit;
-    squares += Eigen::Vector4d(pose.held_out.head<3>().squaredNorm(),
-                               std::pow(pose.expected_position, 2),
-                               pose.held_out.tail<3>().squaredNorm(),
-                               std::pow(pose.expected_orientation, 2));
-  }
-  if (test.poses > 0) test.coverage = CoverageOf(test.inside, test.poses, kProbability);
-  squares = (squares / std::max(test.poses, 1)).cwiseSqrt();
-  test.rms_position = squares[0], test.expected_position = squares[1];
-  test.rms_orientation = squares[2], test.expected_orientation = squares[3];
-  return test;
 }
 
 std::vector<BodyReport> BodiesOf(const Dataset& dataset,
@@ -180,6 +145,7 @@ std::vector<std::string> DoubtsOf(const Audit& audit) {
                                      ? std::string("a pose")
                                      : fmt::format("{} poses", estimate.outliers.size()),
                                  estimate.outliers.size() == 1 ? "was" : "were"));
+  AddDoubtsOfReadings(audit.readings, &doubts);
   AddDoubtsOfModel(audit, &doubts);
   AddDoubtsOfMissing(audit, &doubts);
   return doubts;
@@ -262,6 +228,9 @@ Audit MakeAudit(AuditInput input) {
                                            kPower,
                                            WeightedAsIn(input, audit.estimate));
     audit.held_out = HeldOutTestOf(UsedOf(audit.poses, audit.estimate));
+    if (!audit.grown)
+      audit.readings = CheckReadings(
+          input.dataset, input.observations, audit.estimate, {kAlpha, kPower, input.threads});
   }
   std::vector<Place> places = GridOf(audit.workspace, input.dataset);
   if (audit.grown) KeepReached(*audit.grown, &places);

@@ -12,6 +12,7 @@
 #include "estimator/pose_check.h"
 #include "estimator/target_check.h"
 #include "report/accuracy_map.h"
+#include "report/audit_readings.h"
 #include "report/budget.h"
 #include "report/change.h"
 #include "report/correlation.h"
@@ -100,6 +101,7 @@ struct Audit {
   GlobalTest global;
   HeldOutTest held_out;
   std::vector<PoseCheck> poses;
+  std::optional<ReadingReport> readings;  // of markers; not with effects
   std::vector<Correlation> correlations;  // above 0.9
   std::vector<PointReport> points;
   std::vector<Decision> decisions;
@@ -130,6 +132,7 @@ struct AuditInput {
   std::string why_not_screened = {};
   // What the comparison's propagation repeats; nothing: its reference, or the joint fit of grown.
   std::optional<RepeatedAs> repeated = {};
+  int threads = 1;  // the audit does not depend on it
 };
 
 Audit MakeAudit(AuditInput input);

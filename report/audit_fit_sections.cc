@@ -27,6 +27,9 @@ void AddOutliers(const Audit& audit, HtmlPage* page) {
   }
   if (!table.rows.empty()) page->Table(table);
   if (!audit.poses.empty()) page->Figure(SmallestChart(audit.poses));
+  if (audit.readings) return AddReadings(*audit.readings, page);
+  if (audit.grown)
+    page->Note("With effects of a model poses are tested as a whole, single marker readings not.");
 }
 
 std::ptrdiff_t CountLeftOut(const Estimate& estimate) {
@@ -102,8 +105,8 @@ void AddValidation(const Audit& audit, HtmlPage* page) {
                   held.fewest));
   if (audit.header.loss.kind != LossKind::kNone)
     page->Note(
-        "The others weigh as in the fit. What the loss weighs down counts here in full: outliers "
-        "lie outside.");
+        "The others weigh as in the fit. A pose that the loss weighs down counts here in full, one "
+        "to which it gives no weight not at all.");
   if (audit.header.error == "paper")
     page->Note("What a pose has moved the fit by is reckoned as of weights by the noise.");
   const auto left_out = CountLeftOut(audit.estimate);

@@ -186,6 +186,7 @@ Json AuditObject(const AuditIdentity& identity, const Audit& audit) {
   json["linearized"] = JsonLinearity(audit);
   json["bodies"] = Bodies(audit);
   json["poses"] = Poses(audit);
+  json["readings"] = audit.readings ? JsonReadings(*audit.readings) : Json();
   json["change"] = audit.change ? JsonChange(audit) : Json();
   if (audit.grown) json["model"] = JsonModel(audit);
   if (identity.log) json["history"] = ChangeLogJson(*identity.log);

@@ -78,6 +78,7 @@ std::string AuditTable(const Audit& audit) {
                         decision.reason);
   for (const PointReport& report : audit.points) text += PointLines(report, audit.repeated) + "\n";
   text += GlobalTestLines(audit.global, estimate);
+  if (audit.readings) text += ReadingLines(*audit.readings);
   if (audit.held_out.poses > 0)
     text +=
         fmt::format("  held out       {} of {} poses in their 95 % region; {} RMS, {} expected\n",
