@@ -143,6 +143,10 @@ Audit AuditGrown(const Dataset& dataset,
   GrownCalibration grown = CalibrateGrown(dataset, model, options);
   *machine = grown.machine;
   const GrownSolution& solution = *grown.solution;
+  if (dataset.measurement->kind == Measurement::Kind::kMarkers)
+    PrintWarning(dataset.name +
+                 ": with the effects of a --model the fit is by poses, made of the markers' "
+                 "readings; it is not by the readings themselves, as without a model");
   CompareOptions compare = ComparisonOf(dataset, options);
   compare.markers = {};
   compare.progress = [&bars](std::string_view label, long done, long of) {

@@ -4,17 +4,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "apps/message.h"
+#include "config/input_error.h"
 
 namespace hexcal {
 namespace {
 
 constexpr std::size_t kMaxWarnings = 10;
 
+// Who names the folder means the dataset in it.
+void RefuseFolder(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) return;
+  const std::filesystem::path inside = std::filesystem::path(path) / "dataset.yaml";
+  if (std::filesystem::exists(inside, ignored))
+    throw InputError(FileLocation(path),
+                     "no file but a folder",
+                     fmt::format("a dataset file (did you mean '{}'?)", inside.string()));
+}
+
 }  // namespace
 
 Dataset OpenDataset(const std::string& path, bool needs_measurement) {
+  RefuseFolder(path);
   Dataset dataset = ReadDataset(path, needs_measurement);
   for (const std::string& warning : dataset.warnings) PrintWarning(warning);
   return dataset;

@@ -24,6 +24,18 @@ std::string_view OnlyContinuation(std::string_view word,
   return *first;
 }
 
+// The only known word of three letters in which two stand in this order, the first one first.
+std::string_view OnlyWithOneMore(std::string_view word,
+                                 const std::vector<std::string_view>& known) {
+  if (word.size() != 2) return {};
+  const auto has_more = [word](std::string_view candidate) {
+    return candidate.size() == 3 && candidate[0] == word[0] && candidate[2] == word[1];
+  };
+  const auto first = std::find_if(known.begin(), known.end(), has_more);
+  if (first == known.end() || std::any_of(first + 1, known.end(), has_more)) return {};
+  return *first;
+}
+
 }  // namespace
 
 std::size_t EditDistance(std::string_view a, std::string_view b) {
@@ -55,7 +67,8 @@ std::string NearestWord(std::string_view word, const std::vector<std::string_vie
     least = distance;
     nearest = candidate;
   }
-  return std::string(nearest.empty() ? OnlyContinuation(word, known) : nearest);
+  if (nearest.empty()) nearest = OnlyContinuation(word, known);
+  return std::string(nearest.empty() ? OnlyWithOneMore(word, known) : nearest);
 }
 
 std::string DidYouMean(std::string_view word, const std::vector<std::string_view>& known) {

@@ -16,6 +16,8 @@
 namespace hexcal {
 namespace {
 
+constexpr std::size_t kShortId = 12;  // of a report's number, at the foot of a printed page
+
 // Of each coordinate, mm.
 std::string DeviationText(const NamedPoint& point) {
   if (!point.pivot) return fmt::format("{:.4f}", 1e3 * point.standard_deviation);
@@ -121,7 +123,8 @@ void AddIdentification(const AuditIdentity& identity,
   page->Table(files);
   AddRowCounts(audit, page);
   page->Note(
-      "The report's number is the SHA-256 of the inputs' hashes, the settings and result.json. "
+      "The report's number is the SHA-256 of the inputs' hashes, the settings and result.json; its "
+      "first 12 digits are at the foot of every printed page. "
       "What "
       "the dataset and the requirement file state is taken as it stands.");
 }
@@ -238,6 +241,7 @@ std::string AuditHtml(const AuditIdentity& identity,
       "Accuracy audit: " + audit.header.dataset,
       fmt::format("{} poses · how far a point of the tool may be from where it is predicted",
                   audit.estimate.poses.size()));
+  page.Footer("hexcal audit: report " + identity.id.substr(0, kShortId));
   AddVerdict(audit, &page);
   AddIdentification(identity, record, audit, &page);
   AddMeasurand(audit, &page);

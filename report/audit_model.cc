@@ -59,6 +59,10 @@ void AddModelEffects(const Audit& audit, HtmlPage* page) {
       "Fitted along with base and tool; the error of a point holds their uncertainty and its "
       "correlation with the mounts. Effects of the tracker and of markers do not move the tool: "
       "they count by that correlation alone.");
+  if (!audit.bodies.empty())
+    page->Paragraph(
+        "This fit is by poses, made of the markers' readings, not by the readings themselves as "
+        "without a model.");
   HtmlTable table = {{{"effect"}, {"number"}, {"value", true}, {"standard uncertainty", true}}, {}};
   for (std::size_t e = 0; e < solution.fit.effects.size(); ++e) {
     const Effect& effect = solution.fit.effects[e];

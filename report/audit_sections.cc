@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/units.h"
 #include "report/accuracy_charts.h"
 #include "report/quantity.h"
 
@@ -19,10 +20,12 @@ constexpr const char* kNumbers[6] = {"x, mm", "y, mm", "z, mm", "rx, mrad", "ry,
 void AddAccuracy(const Audit& audit, HtmlPage* page) {
   page->Section("Accuracy over the workspace");
   HtmlTable box = {{{"T_A^B, Eq. (2)"}, {"from", true}, {"to", true}}, {}};
-  for (int i = 0; i < 6; ++i)
-    box.rows.push_back({kNumbers[i],
-                        fmt::format("{:.4g}", 1e3 * audit.workspace.box[i][0]),
-                        fmt::format("{:.4g}", 1e3 * audit.workspace.box[i][1])});
+  const auto text = [&](int number, int end) {
+    const double value = audit.workspace.box[number][end];
+    return number < 3 ? fmt::format("{:.4g}", 1e3 * value)
+                      : fmt::format("{:.4g} ({:.4g}°)", 1e3 * value, value * 180.0 / kPi);
+  };
+  for (int i = 0; i < 6; ++i) box.rows.push_back({kNumbers[i], text(i, 0), text(i, 1)});
   page->Table(box);
   page->Note(fmt::format(
       "{} {} places of a grid over it were looked at{}.",

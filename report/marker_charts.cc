@@ -66,7 +66,7 @@ Chart RmsChart(const std::vector<MarkerLeftOver>& markers) {
 
 // A hue of its own for each, told apart on light and dark ground.
 constexpr const char* kHues[8] = {
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#8c564b", "#7f7f7f"};
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8a63d2", "#56b4e9", "#8c564b", "#7f7f7f"};
 constexpr const char* kShapes[4] = {"circle", "diamond", "triangle-up", "square"};
 
 // Where a marker's residual is off along one axis of the tracker.

@@ -90,7 +90,7 @@ TEST(AuditInBrowser, IsDrawnSaysWhatItsJsonSaysAndItsNamesAreOnlyNames) {
   const std::string dom = Before(browser.Dom(html), "plotly.js (cartesian");
   ExpectQuiet(browser.Console());
   const int pictures = Count(html, "class=\"plot\"");
-  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 17);
+  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 19);
   EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), pictures);
   EXPECT_EQ(Count(dom, "data-complete="), FlatCharts().empty() ? 0 : 1);
   const auto json = nlohmann::json::parse(AuditJson(identity, audit));
@@ -122,8 +122,8 @@ TEST(CalibrationInBrowser, IsDrawnAsItsComparisonIs) {
   for (PoseResult& pose : example.comparison.reference.poses) pose.label = hostile;
   for (Observation& o : example.observations.items) o.label = hostile;
   const LeftOver untimed = left;
-  left.markers = {{hostile, 2, 1e-4, 2e-4, {{1e-4, 0, 0}, {0, 1e-4, 0}}, {0, 1}},
-                  {"tool/t1", 1, 1e-4, 0.0, {{0, 0, 1e-4}}, {1}}};
+  left.markers = {{hostile, 2, 1e-4, 2e-4, {{1e-4, 0, 0}, {0, 1e-4, 0}}, {0, 1}, {true, true}},
+                  {"tool/t1", 1, 1e-4, 0.0, {{0, 0, 1e-4}}, {1}, {true}}};
   for (std::size_t i = 0; i < example.estimate.poses.size(); ++i)
     left.poses.times.push_back(100.0 * static_cast<double>(i));
   ConvergenceMap& map = example.comparison.paper_map;
@@ -136,8 +136,8 @@ TEST(CalibrationInBrowser, IsDrawnAsItsComparisonIs) {
        {std::pair{
             CalibrateHtml(
                 {"demo", "nonlinear", "pose", ""}, record, example.estimate, frames, scene, left),
-            14},
-        std::pair{CompareHtml("demo", record, example.comparison, scene, untimed), 12}}) {
+            16},
+        std::pair{CompareHtml("demo", record, example.comparison, scene, untimed), 14}}) {
     const std::string dom = Before(browser.Dom(html), "plotly.js (cartesian");
     ExpectQuiet(browser.Console());
     EXPECT_EQ(Count(html, "class=\"plot\""), FlatCharts().empty() ? 0 : pictures);

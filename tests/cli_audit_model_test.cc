@@ -70,6 +70,7 @@ TEST_F(CliAuditModel, TheErrorHoldsTheEffectsUncertainty) {
           "name: tracker_scale, parameters: {scale: 0.0005}");
   const ProgramResult result = Audit({"--model=model.yaml", requirement});
   ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("the fit is by poses, made of the markers' readings"));
   const Json audit = Read("audit.json");
   EXPECT_EQ(audit["verdict"], "PASS") << audit["doubts"];
   EXPECT_TRUE(audit["missing_effects"]["named"].empty()) << audit["missing_effects"]["named"];

@@ -252,6 +252,12 @@ TEST_F(CliAudit, ComparesWithAnEarlierResultOfOtherReadings) {
   EXPECT_THAT(Read("report.html"), HasSubstr("does not say which readings it used"));
 }
 
+TEST_F(CliAudit, AFolderIsNoDatasetButItsFileIsSuggested) {
+  const ProgramResult refused = RunHexcal({{"audit", kExample, "--out=o"}, folder.Path("")});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_THAT(refused.err, HasSubstr("(did you mean '" + kExample + "dataset.yaml'?)"));
+}
+
 TEST_F(CliAudit, RefusesWhatIsNotAsItShouldBe) {
   const ProgramResult limit = Audit({"--requirement=" + WithLimit("-1")});
   EXPECT_EQ(limit.status, 3);

@@ -30,6 +30,12 @@ TEST(EditDistance, CountsEachKindOfMistakeOnce) {
   EXPECT_EQ(EditDistance("", "abc"), 3u);
 }
 
+TEST(NearestWord, FindsTheLetterInTheMiddleOfAShortWord) {
+  EXPECT_EQ(NearestWord("ot", {"out", "solver", "seed"}), "out");
+  EXPECT_EQ(NearestWord("ot", {"out", "opt"}), "");  // which?
+  EXPECT_EQ(NearestWord("xt", {"out"}), "");
+}
+
 TEST(EditDistance, IsSymmetricAndBoundedByLengths) {
   std::mt19937_64 random = testing::SeededByTest();
   for (int i = 0; i < 500; ++i) {

@@ -2,6 +2,10 @@
 #include "report/html/page.h"
 
 #include <fmt/format.h>
+#include <glog/logging.h>
+
+#include <cctype>
+#include <cstring>
 
 #include "report/html/assets.h"
 #include "report/html/escape.h"
@@ -164,6 +168,16 @@ void HtmlPage::Figures(const std::vector<Chart>& charts) {
   body_ += "</div>\n";
 }
 
+void HtmlPage::Footer(std::string_view text) {
+  for (const char c : text)
+    CHECK(std::isalnum(static_cast<unsigned char>(c)) || std::strchr(" .:-", c) != nullptr) << text;
+  footer_ = fmt::format(
+      "@page {{ @bottom-left {{ content: \"{}\"; font: 7.5pt sans-serif; color: #444444; }}\n"
+      "@bottom-right {{ content: counter(page) \" / \" counter(pages); font: 7.5pt sans-serif; "
+      "color: #444444; }} }}\n",
+      text);
+}
+
 std::string HtmlPage::Html() const {
   std::vector<std::string_view> scripts;
   if (has_flat_) scripts.push_back(FlatCharts());
@@ -173,11 +187,12 @@ std::string HtmlPage::Html() const {
   for (const std::string_view script : scripts) script_hashes += " " + PolicyHash(script);
   // The chart library adds an empty style element and fills it by rules, and sets style attributes.
   const std::string policy = fmt::format(
-      "default-src 'none'; script-src{}; style-src-elem {} {}; style-src-attr 'unsafe-inline'; "
+      "default-src 'none'; script-src{}; style-src-elem {} {}{}; style-src-attr 'unsafe-inline'; "
       "img-src data: blob:; base-uri 'none'; form-action 'none'",
       script_hashes,
       PolicyHash(PageCss()),
-      PolicyHash(""));
+      PolicyHash(""),
+      footer_.empty() ? "" : " " + PolicyHash(footer_));
   std::string html = fmt::format(
       "<!doctype html>\n{}\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
@@ -186,7 +201,9 @@ std::string HtmlPage::Html() const {
       Mark(kind_),
       EscapeHtml(policy),
       EscapeHtml(title_));
-  html += Style(PageCss()) + "</head>\n<body>\n";
+  html += Style(PageCss());
+  if (!footer_.empty()) html += Style(footer_);
+  html += "</head>\n<body>\n";
   html += fmt::format(
       "<h1>{}</h1>\n<p class=\"subtitle\">{}</p>\n", EscapeHtml(title_), EscapeHtml(subtitle_));
   if (!HasCharts())

@@ -74,6 +74,9 @@ class HtmlPage {
   void Figure(const Drawing& drawing);
   void Figures(const std::vector<Chart>& charts);  // side by side where there is room
 
+  // At the foot of every printed page, with the page's number: letters, digits, spaces, . : -
+  void Footer(std::string_view text);
+
   std::string Html() const;
 
   // What the second line of such a page is; and what it begins with, of whatever kind, since the
@@ -83,7 +86,7 @@ class HtmlPage {
 
  private:
   std::string kind_, title_, subtitle_;
-  std::string body_;
+  std::string body_, footer_;
   int charts_ = 0;
   bool has_flat_ = false, has_space_ = false;
 };

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "report/audit_html.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "report/html/escape.h"
+#include "testing/audits.h"
+
+namespace hexcal {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class AuditHtmlTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    audit = new Audit(MakeAudit(testing::AuditExample().Input(testing::ExampleRequirements())));
+  }
+  static void TearDownTestSuite() { delete audit; }
+
+  static std::string Page(const std::string& result) {
+    return AuditHtml({{{"d.yaml", "00"}}, "0123456789abcdef"}, {}, *audit, result);
+  }
+
+  static Audit* audit;
+};
+Audit* AuditHtmlTest::audit = nullptr;
+
+// What would not open well is left beside the page, and the page says so.
+TEST_F(AuditHtmlTest, EmbedsItsJsonUnlessThatIsTooLarge) {
+  const std::string small = Page("{\"a\": 1}");
+  EXPECT_THAT(small, HasSubstr("id=\"audit\">"));
+  EXPECT_THAT(small, HasSubstr("id=\"result\">{\"a\": 1}"));
+  EXPECT_THAT(small, Not(HasSubstr("too large to be in it")));
+  const std::string large = Page("{\"a\": \"" + std::string(8 << 20, 'x') + "\"}");
+  EXPECT_THAT(large, HasSubstr("too large to be in it"));
+  EXPECT_EQ(large.find("id=\"audit\">"), std::string::npos);
+  EXPECT_EQ(large.find("id=\"result\">"), std::string::npos);
+  EXPECT_LT(large.size(), small.size() + 1000);
+}
+
+// The short number, allowed by the page's own policy.
+TEST_F(AuditHtmlTest, HasItsNumberAtTheFootOfPrintedPages) {
+  const std::string page = Page("{}");
+  const std::size_t at = page.find("@page { @bottom-left");
+  ASSERT_NE(at, std::string::npos);
+  const std::string style = page.substr(at, page.find("</style>", at) - at);
+  EXPECT_THAT(style, HasSubstr("report 0123456789ab\""));
+  EXPECT_THAT(page.substr(0, at), HasSubstr(EscapeHtml(PolicyHash(style))));
+}
+
+TEST_F(AuditHtmlTest, AnglesOfTheWorkspaceAreInDegreesToo) {
+  EXPECT_THAT(Page("{}"), HasSubstr("139.6 (8°)"));  // as examples/neurobot/requirement.yaml asks
+}
+
+}  // namespace
+}  // namespace hexcal
