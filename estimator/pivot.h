@@ -58,6 +58,15 @@ struct PivotResult {
   bool IsDetermined(int axis) const;
   long lost_count() const { return std::count(is_lost.begin(), is_lost.end(), true); }
   bool NoiseIsStated() const { return noise == PivotNoise::kKnown; }
+  // Whether chi-square tests the stated noise, and is above its limits.
+  bool IsTested() const { return NoiseIsStated() && lost_count() == 0; }
+  bool HasTooMuchLeftOver() const { return IsTested() && !(chi_square <= chi_square_high); }
+  // Outliers that the tip rests on all the same.
+  long used_outliers() const {
+    return std::count_if(outliers.begin(), outliers.end(), [this](const PivotOutlier& outlier) {
+      return rows[outlier.index].used;
+    });
+  }
 };
 
 // Three poses or more (CHECK).

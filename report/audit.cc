@@ -145,6 +145,10 @@ std::vector<std::string> DoubtsOf(const Audit& audit) {
                                      ? std::string("a pose")
                                      : fmt::format("{} poses", estimate.outliers.size()),
                                  estimate.outliers.size() == 1 ? "was" : "were"));
+  for (const NamedPoint& point : audit.requirements.points)
+    if (point.pivot)
+      for (const std::string& doubt : point.pivot->doubts)
+        doubts.push_back(fmt::format("of the pivoting of {} {}", point.name, doubt));
   AddDoubtsOfReadings(audit.readings, &doubts);
   AddDoubtsOfModel(audit, &doubts);
   AddDoubtsOfMissing(audit, &doubts);

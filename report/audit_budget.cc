@@ -32,23 +32,21 @@ class Rows {
     BudgetRow row;
     row.name = name;
     row.origin = origin;
-    // Whoever states the noise has evaluated it; only what the data told is of type A.
-    const bool is_told = std::isfinite(degrees_of_freedom);
-    row.type = is_told ? 'A' : 'B';
-    row.spread = is_told ? BudgetSpread::kStudent : BudgetSpread::kNormal;
+    SetTold(degrees_of_freedom, &row);
     row.value = std::sqrt(std::max(share.trace(), 0.0));
     row.degrees_of_freedom = degrees_of_freedom;
     Add(row);
   }
 
-  void AddSource(const ErrorSource& source, const std::string& origin, char type) {
+  // is_fitted: a fit to readings told it, as for the calibration.
+  void AddSource(const ErrorSource& source, const std::string& origin, bool is_fitted = false) {
     BudgetRow row;
     row.name = source.name;
     row.origin = origin;
-    row.type = type;
     row.degrees_of_freedom = source.degrees_of_freedom;
     const bool is_uniform = source.spread == Spread1d::kUniform;
     row.spread = is_uniform ? BudgetSpread::kRectangular : BudgetSpread::kNormal;
+    if (is_fitted) SetTold(source.degrees_of_freedom, &row);
     row.divisor = is_uniform ? std::sqrt(3.0) : 1.0;
     const Eigen::Vector2d& sensitivity = at_.sensitivities[next_++];
     row.quantity = BudgetQuantity::kPosition;
@@ -65,6 +63,13 @@ class Rows {
   }
 
  private:
+  // Whoever states the noise has evaluated it; only what the data told is of type A.
+  static void SetTold(double degrees_of_freedom, BudgetRow* row) {
+    const bool is_told = std::isfinite(degrees_of_freedom);
+    row->type = is_told ? 'A' : 'B';
+    row->spread = is_told ? BudgetSpread::kStudent : BudgetSpread::kNormal;
+  }
+
   void Add(BudgetRow row) {
     row.contribution = row.sensitivity * row.value / row.divisor;
     row.share = row.contribution * row.contribution / at_.total.trace();
@@ -157,15 +162,14 @@ Budget BudgetOf(const Audit& audit, const NamedPoint& point, const Pose3d& base_
                         freedom);
   }
   const Requirements& stated = audit.requirements;
-  if (stated.robot) rows.AddSource(stated.robot->source, stated.robot->origin, 'B');
-  for (const StatedSource& source : stated.sources)
-    rows.AddSource(source.source, source.origin, 'B');
+  if (stated.robot) rows.AddSource(stated.robot->source, stated.robot->origin);
+  for (const StatedSource& source : stated.sources) rows.AddSource(source.source, source.origin);
   ErrorSource own = point.Source();
   own.name = "the point in frame T";
   rows.AddSource(
       own,
       point.pivot ? "pivoting, " + FileName(point.pivot->path) : "its standard_deviation",
-      point.pivot ? 'A' : 'B');
+      point.pivot.has_value());
   if (const auto carried = error.CarriedTo(base_from_platform, point.p_in_tool))
     AddParameters(audit, *carried, &budget);
   return budget;

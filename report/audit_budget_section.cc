@@ -123,8 +123,9 @@ void AddBudget(const Audit& audit, HtmlPage* page) {
       "the last row (JCGM 100:2008, 5.2.2).");
   page->Note(
       "Type A: evaluated by statistics of observations; type B: otherwise (JCGM 100:2008). The "
-      "calibration is of type A where its noise was told by what is left over, of type B where the "
-      "noise was stated. Degrees of freedom of the sum: Welch and Satterthwaite, by traces.");
+      "calibration, and a point by pivoting, is of type A where its noise was told by what is left "
+      "over, of type B where the noise was stated. Degrees of freedom of the sum: Welch and "
+      "Satterthwaite, by traces.");
 }
 
 }  // namespace hexcal

@@ -17,6 +17,22 @@ bool IsDetermined(const PivotResult& result, int row) {
   return row < 3 ? result.IsDetermined(row) : result.lost_count() == 0;
 }
 
+// Why the standard deviations may not be true; empty where they may.
+std::string DoubtsOf(const PivotResult& result) {
+  std::string doubts;
+  if (result.HasTooMuchLeftOver())
+    doubts = fmt::format("What is left over is {:.2f} times what the stated noise explains.",
+                         std::sqrt(result.chi_square / result.degrees_of_freedom_of_fit));
+  if (const long used = result.used_outliers(); used > 0)
+    doubts += fmt::format(
+        "{}{} that the others contradict {} used all the same "
+        "(--outliers=reject leaves such out).",
+        doubts.empty() ? "" : " ",
+        used == 1 ? "A reading" : fmt::format("{} readings", used),
+        used == 1 ? "was" : "were");
+  return doubts;
+}
+
 void AddVerdict(const PivotResult& result, HtmlPage* page) {
   if (!result.converged)
     return page->Verdict(
@@ -28,14 +44,26 @@ void AddVerdict(const PivotResult& result, HtmlPage* page) {
                          fmt::format("The readings do not tilt the tool enough: the tip is not "
                                      "determined along {} of three directions.",
                                      result.lost_count()));
-  const double rms = std::sqrt(result.covariance.topLeftCorner<3, 3>().trace());
+  const std::string rms = SizeText(std::sqrt(result.covariance.topLeftCorner<3, 3>().trace()), "m");
+  const std::string left_over = SizeText(result.rms, "m");
+  const std::string doubts = DoubtsOf(result);
+  if (!doubts.empty())
+    return page->Verdict(
+        Tone::kWarn,
+        "verdict",
+        "determined, but doubtful",
+        fmt::format("{} So the tip may be further off than the {} that its three standard "
+                    "deviations together come to (RMS); {} RMS are left over.",
+                    doubts,
+                    rms,
+                    left_over));
   page->Verdict(Tone::kGood,
                 "verdict",
                 "determined",
                 fmt::format("The tip is known to {} (RMS of its three standard deviations "
                             "together); {} RMS are left over.",
-                            SizeText(rms, "m"),
-                            SizeText(result.rms, "m")));
+                            rms,
+                            left_over));
 }
 
 void AddPoint(const char* heading,

@@ -107,7 +107,7 @@ Json PivotObject(const Dataset& dataset, const PivotResult& result) {
                         {"degrees_of_freedom", result.degrees_of_freedom_of_fit},
                         {"low", result.chi_square_low},
                         {"high", result.chi_square_high},
-                        {"is_a_test", result.NoiseIsStated() && result.lost_count() == 0}};
+                        {"is_a_test", result.IsTested()}};
   json["condition_number"] = Number(result.condition_number);
   json["tilts"] = Tilted(result);
   json["poses"] = Json::array();

@@ -18,10 +18,15 @@ constexpr double kLargest = 1e6;     // m: beyond it no tool is meant
 constexpr double kSamePlace = 1e-9;  // m
 
 // JSON is read as the YAML that it is, for the line numbers.
-const YamlNode& Key(const YamlNode& map, std::string_view key) {
+const YamlNode* Find(const YamlNode& map, std::string_view key) {
   if (map.kind != YamlNode::Kind::kMap) throw InputError(map.where, Describe(map), kExpected);
   for (const auto& [name, value] : map.entries)
-    if (name.scalar == key) return value;
+    if (name.scalar == key) return &value;
+  return nullptr;
+}
+
+const YamlNode& Key(const YamlNode& map, std::string_view key) {
+  if (const YamlNode* value = Find(map, key)) return *value;
   throw InputError(map.where, fmt::format("no key '{}'", key), kExpected);
 }
 
@@ -75,6 +80,40 @@ bool IsSame(const MarkerBody& a, const MarkerBody& b) {
   return true;
 }
 
+void AddDoubtOfFit(const YamlNode& root, std::vector<std::string>* doubts) {
+  const YamlNode* test = Find(root, "chi_square");
+  if (test == nullptr || !ReadBool(Key(*test, "is_a_test"))) return;
+  const double value = ReadNumber(Key(*test, "value")), high = ReadNumber(Key(*test, "high"));
+  const double dof = ReadNumber(Key(*test, "degrees_of_freedom"));
+  if (value <= high) return;
+  doubts->push_back(
+      fmt::format("more is left over than its stated noise explains (chi-square {:.5g} with {} "
+                  "degrees of freedom, not above {:.4g} with 97.5 %)",
+                  value,
+                  dof,
+                  high));
+}
+
+bool IsSamePose(const YamlNode& a, const YamlNode& b) {
+  return Key(a, "pose").scalar == Key(b, "pose").scalar &&
+         Key(a, "line").scalar == Key(b, "line").scalar;
+}
+
+void AddDoubtOfOutliers(const YamlNode& root, std::vector<std::string>* doubts) {
+  const YamlNode *outliers = Find(root, "outliers"), *poses = Find(root, "poses");
+  if (outliers == nullptr || poses == nullptr) return;
+  std::string used;
+  for (const YamlNode& outlier : ReadSequence(*outliers, "the outliers"))
+    for (const YamlNode& pose : ReadSequence(*poses, "the readings"))
+      if (IsSamePose(outlier, pose) && ReadBool(Key(pose, "used")))
+        used += fmt::format("{}{} ({:.3g} sigma off)",
+                            used.empty() ? "" : ", ",
+                            Key(pose, "pose").scalar,
+                            ReadNumber(Key(outlier, "sigmas")));
+  if (!used.empty())
+    doubts->push_back("a reading that the others contradict was used all the same: pose " + used);
+}
+
 }  // namespace
 
 PivotPoint ReadPivotPoint(const YamlNode& node, const std::string& context_path) {
@@ -96,6 +135,8 @@ PivotPoint ReadPivotPoint(const YamlNode& node, const std::string& context_path)
   if (!(point.degrees_of_freedom >= 1.0))
     throw InputError(dof.where, Describe(dof), "degrees of freedom, 1 or more");
   point.tool = ReadTool(Key(root, "tool"));
+  AddDoubtOfFit(root, &point.doubts);
+  AddDoubtOfOutliers(root, &point.doubts);
   return point;
 }
 

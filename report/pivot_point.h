@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "config/strict_yaml.h"
 #include "measurement/dataset.h"
@@ -19,6 +20,9 @@ struct PivotPoint {
   double degrees_of_freedom = std::numeric_limits<double>::infinity();  // of the covariance
   // The markers that frame T was made of, where the pivoting was of markers.
   std::optional<MarkerBody> tool;
+  // Why nothing may rest on the tip, as a part of a sentence each, by its chi-square and outliers.
+  // Empty, too, where its file is of a version that did not say it.
+  std::vector<std::string> doubts;
   Location where;  // of the name in the requirement file
 };
 

@@ -141,5 +141,20 @@ TEST_F(AuditBudget, CalibrationIsOfTheTypeOfItsNoise) {
   EXPECT_NEAR(budget.parameters[0].degrees_of_freedom, 60.0, 1e-9);
 }
 
+// The same rule for a tip by pivoting.
+TEST_F(AuditBudget, APivotingIsOfTheTypeOfItsNoise) {
+  NamedPoint tip = Tip().point;
+  tip.pivot = PivotPoint{};
+  tip.pivot->covariance = 1e-10 * Eigen::Matrix3d::Identity();
+  const auto row = [&] {
+    return BudgetOf(*audit, tip, Tip().worst.place.base_from_platform).rows.back();
+  };
+  EXPECT_EQ(row().type, 'B');
+  EXPECT_EQ(row().spread, BudgetSpread::kNormal);
+  tip.pivot->degrees_of_freedom = 50.0;
+  EXPECT_EQ(row().type, 'A');
+  EXPECT_EQ(row().spread, BudgetSpread::kStudent);
+}
+
 }  // namespace
 }  // namespace hexcal

@@ -140,6 +140,33 @@ TEST_F(PivotPointFile, BringsThePointItsCovarianceAndDegreesOfFreedom) {
   EXPECT_EQ(ReadWith(kPivot).points.at(1).Source().site, SourceSite::kPoint);
 }
 
+// A file without the test and the readings is read as it was.
+TEST_F(PivotPointFile, BringsWhatItsOwnFitLeavesInDoubt) {
+  const auto doubts = [&](const std::string& more) {
+    std::string pivot = kPivot;
+    pivot.replace(pivot.rfind("}\n"), 2, more + "}\n");
+    return ReadWith(pivot).points.at(0).pivot->doubts;
+  };
+  const auto test = [](const std::string& value, const std::string& is_a_test) {
+    return R"(, "chi_square": {"value": )" + value +
+           R"(, "degrees_of_freedom": 114, "low": 86, "high": 145, "is_a_test": )" + is_a_test +
+           "}";
+  };
+  const auto readings = [](const std::string& used) {
+    return R"(, "poses": [{"pose": "1", "line": 3, "used": true}, {"pose": "2", "line": 4, "used": )" +
+           used + R"(}], "outliers": [{"pose": "2", "line": 4, "sigmas": 20.5}])";
+  };
+  EXPECT_TRUE(doubts("").empty());
+  EXPECT_TRUE(doubts(test("145", "true") + readings("false")).empty());
+  EXPECT_TRUE(doubts(test("495.9", "false")).empty());
+  const auto both = doubts(test("495.9", "true") + readings("true"));
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_THAT(both[0], HasSubstr("495.9 with 114 degrees of freedom, not above 145"));
+  EXPECT_THAT(both[1], HasSubstr("pose 2 (20.5 sigma off)"));
+  EXPECT_THAT(testing::InputErrorText([&] { doubts(test("null", "true")); }),
+              HasSubstr("pivot.json:4:"));
+}
+
 TEST_F(PivotPointFile, RefusesWhatIsNoDeterminedTip) {
   EXPECT_THAT(PivotRefusal("true", "false"),
               AllOf(HasSubstr("pivot.json:1:"), HasSubstr("not determined")));
