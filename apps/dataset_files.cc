@@ -49,9 +49,13 @@ void PrintNewWarnings(const Dataset& dataset,
 
 std::vector<std::string> InputFiles(const Dataset& dataset, const std::string& model) {
   std::vector<std::string> files = {dataset.path};
-  if (dataset.robot_poses.where.file) files.push_back(*dataset.robot_poses.where.file);
-  if (dataset.measurement && dataset.measurement->where.file)
-    files.push_back(*dataset.measurement->where.file);
+  // A table may stand in the dataset itself.
+  const auto add = [&files](const Location& where) {
+    if (where.file && std::find(files.begin(), files.end(), *where.file) == files.end())
+      files.push_back(*where.file);
+  };
+  add(dataset.robot_poses.where);
+  if (dataset.measurement) add(dataset.measurement->where);
   if (!model.empty()) files.push_back(model);
   return files;
 }

@@ -66,8 +66,11 @@ void AddVerdict(const Audit& audit, HtmlPage* page) {
         "Decision rule, guarded acceptance (JCGM 106:2012, 8.3): PASS where value and guard band "
         "stay "
         "within the limit and nothing below speaks against it; FAIL where the value less the guard "
-        "band is beyond the limit; else INCONCLUSIVE. Guard band: the expanded uncertainty of "
-        "the value, k = 2 (p = 95 %), by the degrees of freedom of the budget.");
+        "band is beyond the limit; else INCONCLUSIVE. Guard band: twice the standard "
+        "uncertainty of the value (k = 2, p = 95 %): of the standard deviations that it is made "
+        "of, "
+        "by their degrees of freedom (where the noise was stated, those of the residuals that "
+        "confirm it), and what repetition has it differ by.");
   }
   if (!audit.doubts.empty()) {
     page->Heading("What keeps a requirement from passing");

@@ -44,7 +44,7 @@ void AddPoseDesign(const Audit& audit, HtmlPage* page) {
   const PoseDesign& design = audit.design;
   page->Paragraph(fmt::format(
       "{} poses; rotations about the mean orientation are {:.2f}°, {:.2f}° and {:.2f}° RMS about "
-      "their three main axes, and the axes of two of them are up to {:.0f}° apart.",
+      "their three main axes, and the axes of the larger half of them are up to {:.0f}° apart.",
       design.poses.size(),
       design.rotation_rms[0] * 180.0 / kPi,
       design.rotation_rms[1] * 180.0 / kPi,

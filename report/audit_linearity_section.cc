@@ -95,13 +95,13 @@ HtmlTable PointTable(const Audit& audit) {
 void AddRepetition(const Audit& audit, HtmlPage* page) {
   page->Paragraph(RepeatedText(audit.repeated, audit.estimate));
   page->Table(RepeatedTable(audit));
-  HtmlTable checks = {{{"point, where it is worst"},
+  HtmlTable checks = {{{"point, at worst"},
                        {"first order, mm", true},
-                       {"by repetition, mm", true},
-                       {"standard error, mm", true},
+                       {"repeated, mm", true},
+                       {"± mm", true},
                        {"RMS ratio", true},
-                       {"covered, nominally 95 %", true},
-                       {"covered by the length as stated", true},
+                       {"covered", true},
+                       {"covered as stated", true},
                        {"agree"}},
                       {}};
   for (const PointReport& report : audit.points)
@@ -117,10 +117,11 @@ void AddRepetition(const Audit& audit, HtmlPage* page) {
            report.check->agrees ? "yes" : "no"});
   if (!checks.rows.empty()) page->Table(checks);
   page->Note(
-      "The length that the error of the point does not exceed with 95 %; noise counts as known. "
-      "RMS "
+      "The length that the error of the point does not exceed with 95 %; noise counts as known. ±: "
+      "standard error of the repeated one. RMS "
       "ratio: by repetition, by first order. Covered: the share of the repetitions that are no "
-      "longer than by first order, and the 95 % limits of its probability that so many "
+      "longer than by first order, nominally 95 %, and the 95 % limits of its probability that so "
+      "many "
       "repetitions confirm (binomial, Clopper and Pearson): 95 % outside of them is more than "
       "chance. Agree: the two lengths differ by no more than half a unit in the second digit of "
       "the RMS and two standard errors. Limits that leave out 95 % where the lengths agree show a "

@@ -43,10 +43,14 @@ void SetRotations(const Observations& observations, PoseDesign* design) {
 }
 
 double LargestAngle(const PoseDesign& design) {
-  const double rms = design.rotation_rms.norm();
-  std::vector<Eigen::Vector3d> axes;
-  for (const Eigen::Vector3d& rotation : design.rotations)
-    if (rotation.norm() >= rms && rms > 0.0) axes.push_back(rotation.normalized());
+  if (design.rotation_rms.norm() == 0.0) return 0.0;
+  std::vector<Eigen::Vector3d> axes = design.rotations;
+  // The axis of a small rotation is the more uncertain, and tells the less.
+  std::sort(axes.begin(), axes.end(), [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return a.squaredNorm() > b.squaredNorm();
+  });
+  axes.resize((axes.size() + 1) / 2);
+  for (Eigen::Vector3d& axis : axes) axis.normalize();
   const std::size_t stride = axes.size() / kMostCompared + 1;
   double smallest_cosine = 1.0;
   for (std::size_t i = 0; i < axes.size(); i += stride)

@@ -26,8 +26,8 @@ struct PoseDesign {
   std::vector<Eigen::Vector3d> rotations;
   Eigen::Vector3d rotation_rms;
   Eigen::Matrix3d main_axes;
-  // The largest angle between the axes of two rotations that are no smaller than the RMS, rad, at
-  // most a right angle.
+  // The largest angle between the axes of two rotations of the larger half, rad, at most a right
+  // angle.
   double angle_between_axes = 0.0;
 };
 PoseDesign PoseDesignOf(const Dataset& dataset, const Observations& observations);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include <array>
 
 #include "config/units.h"
@@ -97,7 +99,9 @@ Chart RangeChart(const PoseDesign& design, const Workspace& workspace) {
                           {"showlegend", false},
                           {"hovertemplate", "%{text}<extra>%{y}</extra>"},
                           {"marker", {{"color", "@after"}, {"size", 6}, {"opacity", 0.55}}}});
-    const double covered = strip.Percent(strip.span[1]) - strip.Percent(strip.span[0]);
+    // Of the range, not of the poses: what lies beyond it covers nothing.
+    const double covered = std::clamp(strip.Percent(strip.span[1]), 0.0, 100.0) -
+                           std::clamp(strip.Percent(strip.span[0]), 0.0, 100.0);
     chart.table.rows.push_back({fmt::format("{}, {}", strip.name, strip.unit),
                                 fmt::format("{:.3f}", kMilli * strip.span[0]),
                                 fmt::format("{:.3f}", kMilli * strip.span[1]),

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "config/input_error.h"
+#include "report/history/trend.h"
 #include "testing/history_files.h"
 
 namespace hexcal {
@@ -61,6 +62,20 @@ TEST(HistoryRecord, IsNotWhatIsNoRecord) {
   std::string stretched = text;
   stretched.replace(stretched.find("\"quaternion\":[1.0"), 17, "\"quaternion\":[2.0");
   EXPECT_FALSE(ParseRecord(stretched));
+}
+
+TEST(HistoryRecord, WayNamesWhatMakesTheEstimateAnother) {
+  HistoryRecord record = AnyRecord("d", 3);
+  record.solver = "nonlinear", record.residual = "pose", record.error = "";
+  record.effects.clear();
+  record.settings = {{"loss", "none"}, {"loss_scale", "0"}, {"outliers", "report"}};
+  EXPECT_EQ(WayOf(record), "nonlinear by poses");
+  record.settings = {{"loss", "huber"}, {"loss_scale", "0"}, {"outliers", "report"}};
+  EXPECT_EQ(WayOf(record), "nonlinear by poses; loss huber");
+  record.settings = {{"loss", "tukey"}, {"loss_scale", "6"}, {"outliers", "reject"}};
+  record.effects = {"leg_gain"};
+  EXPECT_EQ(WayOf(record),
+            "nonlinear by poses with leg_gain; loss tukey at 6 sigmas; without outliers");
 }
 
 TEST(History, KeepsRecordsInAChain) {

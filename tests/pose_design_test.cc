@@ -37,7 +37,7 @@ TEST(PoseDesign, MainAxesAreThoseOfTheRotations) {
   EXPECT_NEAR(std::abs(design.main_axes(1, 1)), 1.0, 1e-12);
 }
 
-// Axes are lines: opposite senses count as one axis. Rotations below the RMS have no say.
+// Axes are lines: opposite senses count as one axis. The smaller half has no say.
 TEST(PoseDesign, AngleBetweenAxesIsThatOfTheLargeRotations) {
   const Eigen::Vector3d x(0.2, 0, 0);
   const Eigen::Vector3d tilted(0.2 * std::cos(0.5), 0.2 * std::sin(0.5), 0);
@@ -47,6 +47,10 @@ TEST(PoseDesign, AngleBetweenAxesIsThatOfTheLargeRotations) {
   EXPECT_NEAR(two.angle_between_axes, 0.5, 1e-9);
   const PoseDesign one = PoseDesignOf({}, Turned(Eigen::Quaterniond::Identity(), {x, -x, x, -x}));
   EXPECT_NEAR(one.angle_between_axes, 0.0, 1e-7);
+  // One far larger than the others is no reason to compare none.
+  const PoseDesign uneven =
+      PoseDesignOf({}, Turned(Eigen::Quaterniond::Identity(), {4.0 * x, small, x, tilted}));
+  EXPECT_GT(uneven.angle_between_axes, 0.1);
   const PoseDesign none = PoseDesignOf(
       {},
       Turned(Eigen::Quaterniond::Identity(), {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}));
@@ -76,6 +80,16 @@ TEST(PoseDesign, TableHasRangesOfPosesAndLegs) {
   EXPECT_EQ(rows[0].back(), "50 %");
   EXPECT_EQ(rows[1].back(), "100 %");
   EXPECT_EQ(rows[6].front(), "leg 1, mm");
+
+  // Of the range is covered what poses and range share, at most all of it.
+  const double width = design.span[0][1] - design.span[0][0];
+  box[0] = {design.span[0][0] + 0.75 * width, design.span[0][1] + 0.25 * width};
+  box[1] = {design.span[1][0] - 9.0, design.span[1][0] - 8.0};
+  box[2] = {0.5 * (design.span[2][0] + design.span[2][1]), design.span[2][1]};
+  const auto shared = PoseDesignCharts(design, MakeWorkspace(box, observations))[0].table.rows;
+  EXPECT_EQ(shared[0].back(), "50 %");
+  EXPECT_EQ(shared[1].back(), "0 %");
+  EXPECT_EQ(shared[2].back(), "100 %");
 }
 
 }  // namespace

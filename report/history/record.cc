@@ -108,6 +108,17 @@ void ReadNumbers(const Json& json, HistoryRecord* record) {
 
 }  // namespace
 
+std::string HistoryRecord::Setting(std::string_view name) const {
+  for (const auto& [setting, value] : settings)
+    if (setting == name) return value;
+  return "";
+}
+
+bool HistoryRecord::HasLoss() const {
+  const std::string loss = Setting("loss");
+  return !loss.empty() && loss != "none";
+}
+
 std::string TextOf(const Author& author) {
   const std::string account = author.user + "@" + author.host;
   return author.operator_name.empty() ? account

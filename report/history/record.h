@@ -43,6 +43,10 @@ struct HistoryRecord {
   long warning_count = 0;
   std::vector<std::string> warnings;  // the first of them
   std::string result_sha256;          // of result.json
+
+  std::string Setting(std::string_view name) const;  // empty: no such one
+  // Then chi_square is the loss's, which chance makes smaller.
+  bool HasLoss() const;
 };
 
 inline constexpr std::string_view kNoHash =

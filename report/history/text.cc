@@ -149,8 +149,10 @@ std::string HistoryRecordText(const StoredRecord& row) {
                       SizeText(r.noise.position, "m"),
                       SizeText(r.noise.orientation, "rad"),
                       r.noise.estimated ? "estimated" : "as stated");
-  text += fmt::format(
-      "  chi-square   {:.5g} with {} degrees of freedom\n", r.chi_square, r.degrees_of_freedom);
+  text += fmt::format("  chi-square   {:.5g} with {} degrees of freedom{}\n",
+                      r.chi_square,
+                      r.degrees_of_freedom,
+                      r.HasLoss() ? " (of the loss: smaller than chance makes it)" : "");
   text += fmt::format("  warnings     {}\n", r.warning_count);
   for (const std::string& warning : r.warnings) text += "    " + Plain(warning) + "\n";
   text += "  settings    ";

@@ -61,6 +61,12 @@ std::string WayOf(const HistoryRecord& record) {
   if (!record.error.empty()) way += fmt::format(" ({})", record.error);
   for (std::size_t i = 0; i < record.effects.size(); ++i)
     way += (i == 0 ? " with " : ", ") + record.effects[i];
+  if (record.HasLoss()) {
+    const std::string scale = record.Setting("loss_scale");
+    way += fmt::format("; loss {}", record.Setting("loss"));
+    if (!scale.empty() && scale != "0") way += fmt::format(" at {} sigmas", scale);
+  }
+  if (record.Setting("outliers") == "reject") way += "; without outliers";
   return way;
 }
 

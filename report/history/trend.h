@@ -36,7 +36,7 @@ std::vector<DatasetTrend> TrendsOf(const std::vector<StoredRecord>& rows,
 double SecondsOf(const std::string& utc);
 
 // How a calibration was made, in words: "nonlinear by markers", "nonlinear by poses with
-// leg_periodic".
+// leg_periodic; loss huber".
 std::string WayOf(const HistoryRecord& record);
 
 }  // namespace hexcal
