@@ -81,8 +81,8 @@ AssembleOptions AssembleOptionsFromFlags() {
   options.time_offset = FLAGS_time_offset;
   options.base = FLAGS_base;
   options.tool = FLAGS_tool;
-  if (!FLAGS_base_body.empty()) options.base_shape = ReadMarkerShape(FLAGS_base_body);
-  if (!FLAGS_tool_body.empty()) options.tool_shape = ReadMarkerShape(FLAGS_tool_body);
+  if (!FLAGS_base_body.empty()) options.base_shape = ReadStatedShape(FLAGS_base_body);
+  if (!FLAGS_tool_body.empty()) options.tool_shape = ReadStatedShape(FLAGS_tool_body);
   if (FLAGS_kind == "markers") options.kind = ImportKind::kMarkers;
   if (FLAGS_kind == "poses") options.kind = ImportKind::kPoses;
   options.robot_inverse = FLAGS_robot_inverse;

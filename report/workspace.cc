@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "geometry/rotation_angles.h"
@@ -11,6 +12,8 @@
 
 namespace hexcal {
 namespace {
+
+constexpr double kDegree = kPi / 180.0;
 
 constexpr int kLevels = 3;
 // The part of a range by which the calibration's poses may miss its ends.
@@ -99,9 +102,15 @@ std::string WordsOf(const Place& place) {
   constexpr const char* kAxes[6] = {"x", "y", "z", "rx", "ry", "rz"};
   const Vector6d y = VectorFromPose(place.base_from_platform);
   std::string words = place.label.empty() ? "" : fmt::format("pose {}: ", place.label);
-  for (int i = 0; i < 6; ++i)
-    words += fmt::format(
-        "{}{} {:.4g} {}", i == 0 ? "" : ", ", kAxes[i], 1e3 * y[i] + 0.0, i < 3 ? "mm" : "mrad");
+  // In mm and degrees, as places are stated; 0.0 makes no -0 of a rounding error.
+  for (int i = 0; i < 6; ++i) {
+    const double value = i < 3 ? 1e3 * y[i] : y[i] / kDegree;
+    words += fmt::format("{}{} {:.4g}{}",
+                         i == 0 ? "" : ", ",
+                         kAxes[i],
+                         std::round(1e6 * value) / 1e6 + 0.0,
+                         i < 3 ? " mm" : "°");
+  }
   return words;
 }
 

@@ -141,11 +141,11 @@ TEST_F(Assembling, TakesThreeMarkersByNameWithTheirOwnFrame) {
       dataset.measurement->readings[0].p_in_tracker, *tracker.markers[1].points[0], kClose));
   options.tool = "E,F,G,H";
   EXPECT_THAT(Error(), HasSubstr("--tool_body=FILE"));
-  options.tool_shape = MarkerShape{"t.rig", {"1", "2", "3", "4"}, shape};
+  options.tool_shape = StatedShape{"t.rig", {"1", "2", "3", "4"}, shape};
   EXPECT_TRUE(MatrixNear(Make().measurement->bodies[1].p_in_body, shape, kClose));
   options.tool_shape->points.col(0).swap(options.tool_shape->points.col(1));
   EXPECT_THAT(Make().warnings, ::testing::Contains(HasSubstr("in the same order?")));
-  options.tool_shape = MarkerShape{"t.rig", {"1", "2", "3"}, shape.leftCols<3>()};
+  options.tool_shape = StatedShape{"t.rig", {"1", "2", "3"}, shape.leftCols<3>()};
   EXPECT_THAT(Error(), HasSubstr("t.rig: found 3 markers, expected 4"));
   options.tool = "E,F,Q";
   EXPECT_THAT(Error(), HasSubstr("none of them 'E,F,Q'"));

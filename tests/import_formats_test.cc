@@ -84,7 +84,7 @@ TEST(FirstPrinciples, RefusesWhatItIsNot) {
 }
 
 TEST(Rig, ReadsMarkersInMetres) {
-  const MarkerShape shape = ReadMarkerShape(ImportPath("body.rig"));
+  const StatedShape shape = ReadStatedShape(ImportPath("body.rig"));
   EXPECT_THAT(shape.names, ElementsAre("1", "2", "3", "4"));
   Eigen::Matrix3Xd expected(3, 4);
   expected << 0, 0, 0, 0, 0, 0.02859, 0, -0.04432, 0, 0.04102, 0.088, 0.04045;
@@ -135,8 +135,8 @@ std::string WithChecksum(std::string bytes) {
 
 TEST(Rom, ReadsMarkersInMetres) {
   const TemporaryFolder folder;
-  const MarkerShape shape = ReadMarkerShape(folder.Write("t.rom", WithChecksum(RomBytes())));
-  EXPECT_TRUE(MatrixNear(shape.points, ReadMarkerShape(ImportPath("body.rig")).points, 1e-8));
+  const StatedShape shape = ReadStatedShape(folder.Write("t.rom", WithChecksum(RomBytes())));
+  EXPECT_TRUE(MatrixNear(shape.points, ReadStatedShape(ImportPath("body.rig")).points, 1e-8));
 }
 
 TEST(Rom, RefusesDamage) {
@@ -383,9 +383,9 @@ TEST(Formats, NoneTakesTheFileOfAnother) {
       }
     }
   }
-  EXPECT_THAT(InputErrorText([] { ReadMarkerShape(ImportPath("lab.csv")); }),
+  EXPECT_THAT(InputErrorText([] { ReadStatedShape(ImportPath("lab.csv")); }),
               HasSubstr("found a file of no known kind, expected a marker body: rig, rom"));
-  EXPECT_THAT(InputErrorText([] { ReadMarkerShape(ImportPath("motive.csv")); }),
+  EXPECT_THAT(InputErrorText([] { ReadStatedShape(ImportPath("motive.csv")); }),
               HasSubstr("found a file of the format motive"));
 }
 

@@ -29,7 +29,7 @@ struct AssembleOptions {
   double time_offset = 0.0;  // kTime: the robot's clock plus this is the tracker's, s
   std::string base, tool;    // a body of the recording by name or alias, or markers A,B,C;
                              // base: "tracker" where no markers are on the base
-  std::optional<MarkerShape> base_shape, tool_shape;
+  std::optional<StatedShape> base_shape, tool_shape;
   ImportKind kind = ImportKind::kAny;  // kAny: by markers where all is there for it
   bool robot_inverse = false;          // the robot's file states platform_from_base
   bool measured_inverse = false;       // the tracker's file states body_from_recording

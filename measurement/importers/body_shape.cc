@@ -64,7 +64,7 @@ Eigen::Matrix3Xd MeanInBody(const std::vector<Recording>& tracker,
 // In the first row that has them, two markers whose distance is not the stated one.
 void WarnOfDistances(const Recording& recording,
                      const TrackedSide& side,
-                     const MarkerShape& stated,
+                     const StatedShape& stated,
                      std::vector<std::string>& warnings) {
   for (std::size_t a = 0; a < side.markers.size(); ++a) {
     for (std::size_t b = a + 1; b < side.markers.size(); ++b) {
@@ -94,14 +94,14 @@ void WarnOfDistances(const Recording& recording,
 
 }  // namespace
 
-bool HasShape(const TrackedSide& side, const std::optional<MarkerShape>& stated) {
+bool HasShape(const TrackedSide& side, const std::optional<StatedShape>& stated) {
   if (side.is_tracker || side.markers.size() < 3) return false;
   return stated || side.body != nullptr || side.markers.size() == 3;
 }
 
 BodyShape MakeBodyShape(const std::vector<Recording>& tracker,
                         const std::vector<const TrackedSide*>& sides,
-                        const std::optional<MarkerShape>& stated,
+                        const std::optional<StatedShape>& stated,
                         bool measured_inverse,
                         const char* prefix) {
   const TrackedSide& first = *sides.front();

@@ -19,7 +19,7 @@ struct BodyShape {
 };
 
 // Whether there is a way to a shape: a file of it, the body's poses, or just three markers.
-bool HasShape(const TrackedSide& side, const std::optional<MarkerShape>& stated);
+bool HasShape(const TrackedSide& side, const std::optional<StatedShape>& stated);
 
 // The shape that a file states; else the means of the markers in the tracker's own frame of the
 // body, over all rows in which both were seen; else the paper's frame of three markers. sides: one
@@ -27,7 +27,7 @@ bool HasShape(const TrackedSide& side, const std::optional<MarkerShape>& stated)
 // the numbers of markers differ, a marker is never seen, or all are on a line.
 BodyShape MakeBodyShape(const std::vector<Recording>& tracker,
                         const std::vector<const TrackedSide*>& sides,
-                        const std::optional<MarkerShape>& stated,
+                        const std::optional<StatedShape>& stated,
                         bool measured_inverse,
                         const char* prefix);
 

@@ -167,7 +167,7 @@ Recording ReadRecording(const ImportFormat& format,
   }
 }
 
-MarkerShape ReadMarkerShape(const std::string& path) {
+StatedShape ReadStatedShape(const std::string& path) {
   const ImportFormat* format = RecogniseFormat(path);
   if (format != nullptr && format->read_shape != nullptr) return format->read_shape(path);
   throw InputError(FileLocation(path),

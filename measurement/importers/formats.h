@@ -17,7 +17,7 @@ struct ImportFormat {
   bool (*recognise)(std::string_view beginning);  // by the file's first bytes
   // What it holds; the others are null.
   Recording (*read_recording)(const std::string& path, const ImportOptions& options) = nullptr;
-  MarkerShape (*read_shape)(const std::string& path) = nullptr;
+  StatedShape (*read_shape)(const std::string& path) = nullptr;
   StoredTransform (*read_transform)(const std::string& path) = nullptr;
 };
 
@@ -34,6 +34,6 @@ Recording ReadRecording(const ImportFormat& format,
                         const ImportOptions& options);
 
 // A body in any of the formats of bodies, which its beginning tells.
-MarkerShape ReadMarkerShape(const std::string& path);
+StatedShape ReadStatedShape(const std::string& path);
 
 }  // namespace hexcal

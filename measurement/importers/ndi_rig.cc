@@ -42,7 +42,7 @@ bool IsTable(const DelimitedReader& reader) {
 
 }  // namespace
 
-MarkerShape ReadRig(const std::string& path) {
+StatedShape ReadRig(const std::string& path) {
   DelimitedReader reader(path);
   RequireLine(reader, kHeader);
   if (LowerCase(Trimmed(reader.Line())) != "marker description file")
@@ -56,7 +56,7 @@ MarkerShape ReadRig(const std::string& path) {
     reader.Split(' ');
   } while (!IsTable(reader));
 
-  MarkerShape shape{path, {}, Eigen::Matrix3Xd(3, count)};
+  StatedShape shape{path, {}, Eigen::Matrix3Xd(3, count)};
   for (long m = 0; m < count; ++m) {
     RequireLine(reader, fmt::format("{} markers in the table", count));
     reader.Split(' ');

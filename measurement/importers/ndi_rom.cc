@@ -19,7 +19,7 @@ constexpr float kFurthest = 1e4f;           // mm
 
 }  // namespace
 
-MarkerShape ReadRom(const std::string& path) {
+StatedShape ReadRom(const std::string& path) {
   const Location file = FileLocation(path);
   const std::string bytes = ReadTextFile(path, 1 << 20);
   if (bytes.substr(0, 4) != std::string("NDI\0", 4))
@@ -39,7 +39,7 @@ MarkerShape ReadRom(const std::string& path) {
   const std::uint32_t count = Uint32At(bytes, kCountAt);
   if (count < 3 || count > kMostMarkers)
     throw InputError(file, fmt::format("{} markers", count), fmt::format("3 to {}", kMostMarkers));
-  MarkerShape shape{path, {}, Eigen::Matrix3Xd(3, count)};
+  StatedShape shape{path, {}, Eigen::Matrix3Xd(3, count)};
   for (std::uint32_t m = 0; m < count; ++m) {
     shape.names.push_back(std::to_string(m + 1));
     for (std::size_t k = 0; k < 3; ++k) {

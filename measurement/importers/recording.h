@@ -48,7 +48,7 @@ struct Recording {
 };
 
 // A rigid body as the maker of the tracker describes it: its markers in its own frame, m, 3 x n.
-struct MarkerShape {
+struct StatedShape {
   std::string path;
   std::vector<std::string> names;
   Eigen::Matrix3Xd points;
