@@ -142,6 +142,14 @@ TEST(Paper, RmspeFallsAsInTableIII) {
   EXPECT_NEAR(iterations[0]["rmsoe"], 0.07097, 5e-6);
 }
 
+// Exact data: what the iteration's tolerance leaves is no other minimum.
+TEST(Paper, TheIterationArrivesByItsOwnLimit) {
+  const json result = Calibrate({"--solver=linearized"}, kDone);
+  EXPECT_TRUE(result["converged"]);
+  EXPECT_LE(result["iterations"].size(), 21u);
+  EXPECT_LT(FromTruth(result), 1e-12);
+}
+
 TEST(Paper, TheTwistReachesTheTruthInFour) {
   const json result = Calibrate({"--solver=linearized", "--error=twist", "--iterations=4"}, kDone);
   EXPECT_LT(FromTruth(result), 1e-10);
