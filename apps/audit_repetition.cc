@@ -2,6 +2,7 @@
 #include "apps/audit_repetition.h"
 
 #include <fmt/format.h>
+#include <gflags/gflags.h>
 
 #include "apps/estimate_mounts.h"
 #include "estimator/certificate.h"
@@ -28,6 +29,7 @@ PropagationCheck AuditRepetition::Run(const MonteCarloOptions& repeat) {
   RepeatedAs as = {estimate_, is_audits, SolverWords(header_)};
   if (is_audits) {
     fit = {options_, InitialOf(dataset_, options_)};
+    fit.keeps_draws = !gflags::GetCommandLineFlagInfoOrDie("draws").is_default;
     if (options_.loss.kind != LossKind::kNone)
       as.words += fmt::format(
           ", under the loss {} of scale {:.4g}", NameOf(options_.loss.kind), options_.loss.scale);

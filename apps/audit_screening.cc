@@ -4,11 +4,17 @@
 #include <vector>
 
 #include "apps/discover.h"
+#include "estimator/rounding_noise.h"
+#include "report/global_test.h"
 
 namespace hexcal {
 
 void ScreenFor(const std::optional<Machine>& model, StageBars* bars, AuditInput* input) {
   if (!input->estimate.IsTrustworthy()) return;
+  if (IsOnlyRounding(input->observations, input->estimate.noise)) {
+    input->why_not_screened = kOnlyRounding;
+    return;
+  }
   if (model && model->pose_map) {
     input->why_not_screened = "the model has a pose map, from which discovery does not start";
     return;

@@ -8,6 +8,7 @@
 #include "estimator/linearized.h"
 #include "estimator/normal_matrix.h"
 #include "estimator/rms.h"
+#include "estimator/rounding_noise.h"
 #include "residuals/streamed_cost.h"
 #include "residuals/whitener.h"
 
@@ -29,6 +30,7 @@ class Judgement {
   void Run() {
     SetResiduals();
     SetCovariance();
+    if (IsRounding()) ScaleToRounding();
     if (HasLoss() || weighting_.paper_error) SetLeastSquares();
     SetIntervals();
     AddWarnings();
@@ -69,7 +71,7 @@ class Judgement {
           weighting_.loss.Evaluate(squared, &rho, &weight);
           estimate_.poses.push_back({o.label, weight, e});
           estimate_.chi_square += weight * squared;
-          rms.Add(e);
+          if (weight > 0.0) rms.Add(e);
           mean_variance += covariance.diagonal() / n;
         });
     estimate_.rmspe = rms.Position();
@@ -129,6 +131,21 @@ class Judgement {
                                all - 12 + estimate_.observability.null_directions};
   }
 
+  bool IsRounding() const {
+    return weighting_.levels_estimated && !HasLoss() && !weighting_.paper_error &&
+           IsOnlyRounding(observations_, estimate_.noise);
+  }
+
+  // No level was estimated below one rounding, but a few are left over: by what is left over all
+  // are as large as they are.
+  void ScaleToRounding() {
+    estimate_.noise.position *= estimate_.noise_scale;
+    estimate_.noise.orientation *= estimate_.noise_scale;
+    estimate_.covariance_unscaled = estimate_.covariance;
+    estimate_.chi_square = estimate_.degrees_of_freedom;
+    estimate_.noise_scale = 1.0;
+  }
+
   bool HasLoss() const { return weighting_.loss.kind != LossKind::kNone; }
   bool IsSandwich() const { return weighting_.covariance == CovarianceKind::kSandwich; }
   Matrix12d Sandwich() const {
@@ -157,8 +174,8 @@ class Judgement {
     else if (!weighting_.levels_estimated)
       estimate_.intervals = IntervalsOfKnownNoise(covariance);
     // The error of a tracker that stood still is not of these levels.
-    else if (sums_ && sums_->variances && estimate_.observability.null_directions == 0 &&
-             !observations_.tracker_from_world)
+    else if (sums_ && sums_->variances && !IsRounding() &&
+             estimate_.observability.null_directions == 0 && !observations_.tracker_from_world)
       estimate_.intervals =
           IntervalsOfEstimatedNoise(covariance, sums_->equations.components, *sums_->variances);
     else

@@ -7,6 +7,7 @@
 #include <future>
 
 #include "estimator/pose_repetition.h"
+#include "estimator/rounding_noise.h"
 
 namespace hexcal {
 namespace {
@@ -17,7 +18,6 @@ constexpr int kDigits = 2;
 // The draws are cut into so many blocks, whose scatter tells how still the limits stand.
 constexpr int kBlocks = 10;
 // Noise below so many roundings of the data is none.
-constexpr double kRoundings = 1e4;
 
 using Block = Repetition::Block;
 
@@ -127,8 +127,8 @@ std::string WhyNotRepeated(const Observations& observations, const Estimate& est
   if (estimate.observability.null_directions > 0)
     return "the data do not determine " + estimate.observability.weak_directions[0];
   const NoiseLevels rounding = Rounding(observations.items);
-  if (!(estimate.noise.position > kRoundings * rounding.position &&
-        estimate.noise.orientation > kRoundings * rounding.orientation))
+  if (!(estimate.noise.position > kRoundingsOfNoise * rounding.position &&
+        estimate.noise.orientation > kRoundingsOfNoise * rounding.orientation))
     return "there is no noise to repeat but rounding";
   return "";
 }
@@ -141,8 +141,8 @@ PropagationCheck CheckRepetition(const Repetition& repetition, const MonteCarloO
     check.stable = check.validated = true;
     for (int i = 0; i < 12; ++i) {
       check.intervals[i] = CheckOne(blocks, i, repetition.sigma()[i]);
-      check.stable =
-          check.stable && check.intervals[i].accuracy <= 0.2 * check.intervals[i].tolerance;
+      check.stable = check.stable &&
+                     check.intervals[i].accuracy <= kSettledShare * check.intervals[i].tolerance;
       check.validated = check.validated && check.intervals[i].agrees;
     }
   }

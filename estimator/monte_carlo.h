@@ -20,6 +20,9 @@ struct MonteCarloOptions {
   bool keep_draws = false;
 };
 
+// Limits stand still whose accuracy is within this share of the tolerance (8.2).
+constexpr double kSettledShare = 0.2;
+
 // The 95 % interval of one parameter by the covariance against that by repetition, about the
 // estimate; m or rad.
 struct IntervalCheck {

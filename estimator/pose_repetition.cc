@@ -218,7 +218,7 @@ FitPropagation CheckFitPropagation(const Observations& observations,
   const PoseRepetition repetition(observations, levels, estimate, fit);
   MonteCarloOptions own = options;
   if (fit.options.solver == Solver::kLinearized || fit.options.loss.kind != LossKind::kNone) {
-    own.draws = std::max(options.draws / kFasterLeastSquares, kFewestDraws);
+    if (!fit.keeps_draws) own.draws = std::max(options.draws / kFasterLeastSquares, kFewestDraws);
     own.most_rounds = std::min(options.most_rounds, kMostRounds);
   }
   propagation.check = CheckRepetition(repetition, own);

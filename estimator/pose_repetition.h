@@ -13,6 +13,7 @@ namespace hexcal {
 struct RepeatedFit {
   CalibrateOptions options;            // solver, loss, start, iterations; outliers are not sought
   std::optional<BaseAndTool> initial;  // where the linearized iteration starts
+  bool keeps_draws = false;  // as many as asked for, however long each may take; else a fifth
 };
 
 // The estimated machine measured again with the noise of every pose, and calibrated: by least

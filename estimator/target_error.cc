@@ -152,8 +152,9 @@ TargetCovariance TargetError::At(const Pose3d& base_from_platform,
     target.total += target.shares.back();
     per_freedom += std::pow(target.shares.back().trace(), 2) / source.degrees_of_freedom;
   }
-  target.degrees_of_freedom = per_freedom > 0.0 ? std::pow(target.total.trace(), 2) / per_freedom
-                                                : std::numeric_limits<double>::infinity();
+  const double of_sum = std::pow(target.total.trace(), 2) / per_freedom;
+  target.degrees_of_freedom =
+      per_freedom > 0.0 && of_sum < kMany ? of_sum : std::numeric_limits<double>::infinity();
   return target;
 }
 

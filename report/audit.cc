@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "estimator/registration_error.h"
+#include "estimator/rounding_noise.h"
 #include "geometry/rotation_angles.h"
 #include "report/audit_budget.h"
 #include "report/audit_model.h"
@@ -19,6 +20,7 @@ namespace hexcal {
 namespace {
 
 constexpr double kProbability = 0.95;
+constexpr double kMostLost = 0.01;             // of the repetitions, without convergence
 constexpr double kAlpha = 0.01, kPower = 0.8;  // of the smallest errors that would be found
 
 // The robot's own error as a source: from the requirement file, else from the dataset.
@@ -131,7 +133,8 @@ std::vector<std::string> DoubtsOf(const Audit& audit) {
         "the dataset's robot_poses)");
   if (audit.global.is_too_large)
     doubts.push_back("what is left over is more than the stated noise explains");
-  if (audit.held_out.inside < audit.held_out.fewest)
+  if (audit.global.is_rounding) doubts.push_back(kOnlyRounding);
+  if (!audit.global.is_rounding && audit.held_out.inside < audit.held_out.fewest)
     doubts.push_back(fmt::format(
         "only {} of {} poses lie within the 95 % region that the others predict for them",
         audit.held_out.inside,
@@ -149,6 +152,11 @@ std::vector<std::string> DoubtsOf(const Audit& audit) {
     if (point.pivot)
       for (const std::string& doubt : point.pivot->doubts)
         doubts.push_back(fmt::format("of the pivoting of {} {}", point.name, doubt));
+  const PropagationCheck& repeated = audit.comparison.propagation;
+  if (repeated.not_converged > kMostLost * repeated.draws)
+    doubts.push_back(fmt::format("{} of {} repetitions of the calibration did not converge",
+                                 repeated.not_converged,
+                                 repeated.draws));
   AddDoubtsOfReadings(audit.readings, &doubts);
   AddDoubtsOfModel(audit, &doubts);
   AddDoubtsOfMissing(audit, &doubts);
@@ -221,6 +229,7 @@ Audit MakeAudit(AuditInput input) {
   audit.scene = MakeScene(input.dataset, input.observations, audit.estimate);
   audit.left_over = MakeLeftOver(input.dataset, input.observations, audit.estimate);
   audit.global = GlobalTestOf(audit.estimate);
+  audit.global.is_rounding = IsOnlyRounding(input.observations, audit.estimate.noise);
   audit.correlations = StrongCorrelations(audit.estimate);
   audit.bodies = BodiesOf(input.dataset, audit.estimate, audit);
   if (audit.estimate.IsTrustworthy()) {

@@ -74,7 +74,12 @@ void AddGoodnessOfFit(const Audit& audit, HtmlPage* page) {
   if (CountLeftOut(estimate) > 0)
     page->Note(
         "Poses that were left out are in the pictures of residuals, where they stand apart; no "
-        "figure (chi-square, RMS, a marker's mean, held-out poses) has them in it.");
+        "figure (chi-square, RMS, a marker's mean, held-out poses) has them in it" +
+        std::string(audit.header.loss.kind == LossKind::kNone
+                        ? "."
+                        : ", but for the chi-square that is tested under a loss: what the loss "
+                          "weighs down, to nothing too, is there in full, since it is not noise as "
+                          "stated. Poses that were rejected are not."));
   AddResidualPictures(audit.left_over.poses, audit.scene, page);
   AddMarkers(audit.left_over, page);
   AddOutliers(audit, page);
@@ -90,6 +95,8 @@ void AddValidation(const Audit& audit, HtmlPage* page) {
   page->Section("Validation on held-out poses");
   const HeldOutTest& held = audit.held_out;
   if (held.poses == 0) return page->Paragraph("There is nothing to validate with.");
+  if (audit.global.is_rounding)
+    return page->Paragraph("Not validated: " + std::string(kOnlyRounding) + ".");
   page->Paragraph(
       fmt::format("Each pose was predicted from all the others: {} RMS where noise and prediction "
                   "explain {}, and "

@@ -175,11 +175,13 @@ void AddModel(const Audit& audit, HtmlPage* page) {
        fmt::format("Solver: {}.", SolverWords(audit.header)),
        fmt::format("Loss: {}.", LossWords(audit.header)),
        fmt::format("Covariance of the 12: {}.", CovarianceWords(audit.header)),
-       fmt::format("Noise of a measured pose: {} and {} a coordinate, {}.",
-                   SizeText(estimate.noise.position, "m"),
-                   SizeText(estimate.noise.orientation, "rad"),
-                   estimate.noise.estimated ? "estimated from what is left over (type A)"
-                                            : "as the dataset states it (type B)"),
+       audit.global.is_rounding
+           ? "Noise of a measured pose: " + std::string(kOnlyRounding) + "."
+           : fmt::format("Noise of a measured pose: {} and {} a coordinate, {}.",
+                         SizeText(estimate.noise.position, "m"),
+                         SizeText(estimate.noise.orientation, "rad"),
+                         estimate.noise.estimated ? "estimated from what is left over (type A)"
+                                                  : "as the dataset states it (type B)"),
        "Noise is independent from pose to pose and has mean zero. What poses have in common beyond "
        "base and tool (a bent platform, a tracker out of scale) is not in the uncertainty; the "
        "tests "

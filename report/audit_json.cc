@@ -156,6 +156,7 @@ Json AuditObject(const AuditIdentity& identity, const Audit& audit) {
                                            {"b", std::string(kParameters[c.b].name)},
                                            {"value", c.value}});
   json["global_test"] = {{"noise_is_stated", audit.global.is_stated},
+                         {"only_rounding", audit.global.is_rounding},
                          {"tested", audit.global.is_of_fit ? "fit" : "least_squares"},
                          {"chi_square", audit.global.tested.chi_square},
                          {"degrees_of_freedom", audit.global.tested.degrees_of_freedom},

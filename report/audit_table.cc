@@ -79,7 +79,7 @@ std::string AuditTable(const Audit& audit) {
   for (const PointReport& report : audit.points) text += PointLines(report, audit.repeated) + "\n";
   text += GlobalTestLines(audit.global, estimate);
   if (audit.readings) text += ReadingLines(*audit.readings);
-  if (audit.held_out.poses > 0)
+  if (audit.held_out.poses > 0 && !audit.global.is_rounding)
     text +=
         fmt::format("  held out       {} of {} poses in their 95 % region; {} RMS, {} expected\n",
                     audit.held_out.inside,

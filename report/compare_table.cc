@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "config/units.h"
+#include "estimator/propagation_verdict.h"
 
 namespace hexcal {
 namespace {
@@ -71,17 +72,20 @@ std::string Methods(const Comparison& comparison) {
 
 std::string Verdict(const PropagationCheck& check) {
   if (!check.done) return "not checked: " + check.why_not;
+  const PropagationVerdict verdict = VerdictOf(check);
+  if (verdict == PropagationVerdict::kUndecided)
+    return fmt::format("undecided: {} draws made, about {:.0f} needed (JCGM 101 clause 8)",
+                       check.draws,
+                       DrawsNeeded(check));
   std::string wrong;
   for (int i = 0; i < 12; ++i)
-    if (!check.intervals[i].agrees)
+    if (check.stable ? !check.intervals[i].agrees : IsFoundToDiffer(check.intervals[i]))
       wrong += (wrong.empty() ? "" : ", ") + std::string(kParameters[i].name);
-  const std::string text =
-      check.validated ? "may be used: its 95 % intervals are those of repetition to two digits"
-                      : "differs from repetition in its second digit: " + wrong;
-  return fmt::format("{} (JCGM 101 clause 8, {} draws{})",
-                     text,
-                     check.draws,
-                     check.stable ? "" : ", which are too few to be sure");
+  return fmt::format("{} (JCGM 101 clause 8, {} draws)",
+                     verdict == PropagationVerdict::kValidated
+                         ? "may be used: its 95 % intervals are those of repetition to two digits"
+                         : "differs from repetition in its second digit: " + wrong,
+                     check.draws);
 }
 
 // One row of a map: its cells in columns of eight.

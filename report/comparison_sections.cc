@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimator/propagation_verdict.h"
 #include "report/estimate_charts.h"
 
 namespace hexcal {
@@ -45,6 +46,30 @@ void AddMethods(const Comparison& comparison, HtmlPage* page) {
       "solver at the best closed form.");
 }
 
+namespace {
+
+std::string OutcomeOf(const PropagationCheck& propagation) {
+  switch (VerdictOf(propagation)) {
+    case PropagationVerdict::kValidated:
+      return "validated for all 12 parameters";
+    case PropagationVerdict::kDiffers: {
+      std::string wrong;
+      for (int i = 0; i < 12; ++i)
+        if (propagation.stable ? !propagation.intervals[i].agrees
+                               : IsFoundToDiffer(propagation.intervals[i]))
+          wrong += (wrong.empty() ? "" : ", ") + std::string(kParameters[i].name);
+      return "found to differ from those of repetition: " + wrong;
+    }
+    case PropagationVerdict::kUndecided:
+      break;
+  }
+  return fmt::format("undecided: {} repetitions were made, about {:.0f} are needed",
+                     propagation.draws,
+                     DrawsNeeded(propagation));
+}
+
+}  // namespace
+
 void AddPropagation(const PropagationCheck& propagation, HtmlPage* page) {
   page->Heading("May the covariance of first order be used?");
   if (!propagation.done) return page->Paragraph("Not checked: " + propagation.why_not + ".");
@@ -53,11 +78,9 @@ void AddPropagation(const PropagationCheck& propagation, HtmlPage* page) {
                   "calibrated each time. "
                   "By the criterion of JCGM 101:2008, clause 8, with two digits of the standard "
                   "uncertainty, the "
-                  "95 % intervals of first-order propagation are {}{}.",
+                  "95 % intervals of first-order propagation are {}.",
                   propagation.draws,
-                  propagation.validated ? "validated for all 12 parameters"
-                                        : "not validated for every parameter",
-                  propagation.stable ? "" : " (the repetitions were too few to be sure of that)"));
+                  OutcomeOf(propagation)));
   if (propagation.not_converged > 0)
     page->Paragraph(
         fmt::format("{} of the repetitions did not converge; where they ended counts all the same.",

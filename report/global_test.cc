@@ -42,6 +42,10 @@ GlobalTest GlobalTestOf(const Estimate& estimate) {
 std::string GlobalTestText(const GlobalTest& test,
                            const ResultHeader& header,
                            const Estimate& estimate) {
+  if (test.is_rounding)
+    return "Here " + std::string(kOnlyRounding) +
+           ". No statistic of what is left over is tested, and the uncertainty of the calibration "
+           "is that of the arithmetic alone.";
   const std::string of_tested =
       fmt::format("{:.5g} with {} degrees of freedom (noise scale, or Birge ratio, {:.3f})",
                   test.tested.chi_square,
@@ -51,15 +55,18 @@ std::string GlobalTestText(const GlobalTest& test,
     return fmt::format("Chi-square of what is left over: {}. {}", of_tested, Verdict(test));
   return fmt::format(
       "Sum of squares that this fit leaves, {}: {:.5g}; it has no chi-square distribution and is "
-      "not tested. Chi-square of what least squares leaves of the same poses, each by its noise "
+      "not tested. Chi-square of what least squares leaves of all {} poses{}, each by its noise "
       "alone: {}. {}",
       header.loss.kind == LossKind::kNone ? "with its equal weights" : "weighted by the loss",
       estimate.chi_square,
+      (test.tested.degrees_of_freedom + 12 - estimate.observability.null_directions) / 6,
+      header.loss.kind == LossKind::kNone ? "" : ", none weighted down",
       of_tested,
       Verdict(test));
 }
 
 std::string GlobalTestLines(const GlobalTest& test, const Estimate& estimate) {
+  if (test.is_rounding) return "  chi-square     not tested: " + std::string(kOnlyRounding) + "\n";
   std::string text;
   if (!test.is_of_fit)
     text += fmt::format("  left over      {:.5g}, the weighted sum of squares: not tested\n",

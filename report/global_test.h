@@ -17,7 +17,12 @@ struct GlobalTest {
   bool is_of_fit = true;         // tested is the fit's own chi-square
   double low = 0.0, high = 0.0;  // 95 % limits of chi-square
   bool is_too_large = false, is_too_small = false;
+  bool is_rounding = false;  // nothing but rounding is left over; for MakeAudit to say
 };
+
+// Where only rounding is left over, in one sentence without its end.
+inline constexpr const char* kOnlyRounding =
+    "only the rounding of the numbers is left over: nothing can be said of the noise";
 
 GlobalTest GlobalTestOf(const Estimate& estimate);
 

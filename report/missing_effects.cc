@@ -103,7 +103,7 @@ Chart TestedChart(const Screening& missing) {
 
 void AddDoubtsOfMissing(const Audit& audit, std::vector<std::string>* doubts) {
   if (!audit.missing) {
-    if (!audit.why_not_screened.empty())
+    if (!audit.why_not_screened.empty() && !audit.global.is_rounding)
       doubts->push_back("effects that the model lacks were not looked for: " +
                         audit.why_not_screened);
     return;

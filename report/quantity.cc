@@ -59,6 +59,8 @@ std::string QuantityText(double value, double standard_deviation, std::string_vi
 
 std::string SizeText(double value, std::string_view unit) {
   if (!std::isfinite(value)) return std::string(kNone);
+  // Of a length or an angle below this, nothing but the rounding of the numbers is left.
+  if ((unit == "m" || unit == "rad") && std::abs(value) < 1e-13) value = 0.0;
   if (unit == "m" && std::abs(value) < 1e-4) return fmt::format("{:.3g} µm", 1e6 * value);
   if (unit == "rad" && std::abs(value) < 1e-4) return fmt::format("{:.3g} µrad", 1e6 * value);
   const DisplayUnit display = DisplayUnitOf(unit);

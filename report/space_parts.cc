@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/space_parts.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hexcal {
@@ -49,7 +50,9 @@ Json SpaceLayout() {
 }
 
 double RoundFactor(double x) {
+  constexpr double kMost = 1e6;  // beyond it only rounding would show
   if (!(x > 0.0) || !std::isfinite(x)) return 1.0;
+  x = std::min(x, kMost);
   const double power = std::pow(10.0, std::floor(std::log10(x)));
   return power * (x >= 5.0 * power ? 5.0 : x >= 2.0 * power ? 2.0 : 1.0);
 }

@@ -10,6 +10,7 @@
 #include "geometry/rotation_angles.h"
 #include "report/accuracy_charts.h"
 #include "report/audit_json.h"
+#include "report/audit_table.h"
 #include "report/decide.h"
 #include "testing/audits.h"
 #include "testing/matchers.h"
@@ -103,6 +104,18 @@ TEST_F(AuditTest, NothingPassesOnDataThatContradictTheirNoise) {
   audit = MakeAudit(undetermined.Input(testing::ExampleRequirements()));
   EXPECT_EQ(audit.compliance, Compliance::kInconclusive);
   EXPECT_THAT(audit.decisions[0].reason, HasSubstr("a shift along z"));
+}
+
+TEST_F(AuditTest, NothingPassesWhereMoreThanOneInAHundredRepetitionsFailed) {
+  testing::AuditedExample lost = *example;
+  lost.comparison.propagation.not_converged = lost.comparison.propagation.draws / 100;
+  EXPECT_EQ(MakeAudit(lost.Input(testing::ExampleRequirements())).compliance, Compliance::kPass);
+  ++lost.comparison.propagation.not_converged;
+  const Audit audit = MakeAudit(lost.Input(testing::ExampleRequirements()));
+  EXPECT_EQ(audit.compliance, Compliance::kInconclusive);
+  EXPECT_THAT(audit.decisions[0].reason,
+              HasSubstr(" repetitions of the calibration did not converge"));
+  EXPECT_THAT(AuditTable(audit), HasSubstr("did not converge"));
 }
 
 // The robot's error enlarges the value; the rows of the budget add up.

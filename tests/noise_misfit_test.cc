@@ -4,6 +4,7 @@
 
 #include "estimator/calibrate.h"
 #include "estimator/quantiles.h"
+#include "estimator/rms.h"
 #include "report/global_test.h"
 #include "testing/outliers.h"
 #include "testing/scenes.h"
@@ -69,6 +70,30 @@ TEST(NoiseMisfit, IsWhatLeastSquaresLeavesOfThePoses) {
     }
     EXPECT_EQ(GlobalTestOf(plain).is_too_large, has_outliers);
   }
+}
+
+// A pose to which the loss gives no weight is in no RMS, but in the chi-square that is tested.
+TEST(NoiseMisfit, APoseWithoutWeightIsInNoRms) {
+  auto rng = SeededByTest();
+  std::vector<Observation> rows = NoisyRows(rng, 40, 1.0);
+  rows[7].world_from_tool.translation.x() += 1.0;
+  const Observations observations = testing::KnownNoise(rows, kNoise);
+  CalibrateOptions options;
+  options.loss = DefaultLoss(LossKind::kTukey);
+  const Estimate estimate = Calibrate(observations, {}, options);
+  ASSERT_EQ(estimate.poses[7].weight, 0.0);
+  RmsError used;
+  for (const PoseResult& pose : estimate.poses)
+    if (pose.weight > 0.0) used.Add(pose.residual);
+  EXPECT_DOUBLE_EQ(estimate.rmspe, used.Position());
+  EXPECT_DOUBLE_EQ(estimate.rmsoe, used.Orientation());
+  EXPECT_LT(estimate.rmspe, 0.1);
+  EXPECT_EQ(estimate.degrees_of_freedom, 39 * 6 - 12);
+  EXPECT_EQ(estimate.OfNoise().degrees_of_freedom, 40 * 6 - 12);
+  ResultHeader header = {"demo", "nonlinear", "pose", ""};
+  header.loss = options.loss;
+  const std::string text = GlobalTestText(GlobalTestOf(estimate), header, estimate);
+  EXPECT_NE(text.find("of all 40 poses, none weighted down"), std::string::npos) << text;
 }
 
 // Right 95 times in 100 on clean data; a noise understated by 15 % is found, one that is
