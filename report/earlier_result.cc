@@ -68,6 +68,12 @@ EarlierResult ReadEarlierResult(const std::string& path) {
     for (int j = 0; j < 12; ++j)
       if (row[j].kind != YamlNode::Kind::kNull) result.covariance(i, j) = ReadNumber(row[j]);
   }
+  // Of what was not determined nothing is known, whatever stands beside it.
+  for (int i = 0; i < 12; ++i)
+    if (!result.determined[i]) {
+      result.covariance.row(i).setZero();
+      result.covariance.col(i).setZero();
+    }
   if (!IsCovariance(result.covariance))
     throw InputError(
         covariance.where, "a matrix that is no covariance", "a symmetric, positive one");

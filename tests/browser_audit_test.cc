@@ -58,6 +58,7 @@ TEST(AuditInBrowser, IsDrawnSaysWhatItsJsonSaysAndItsNamesAreOnlyNames) {
   testing::AuditedExample example = testing::AuditExample();
   for (PoseResult& pose : example.estimate.poses) pose.label = hostile;
   for (Observation& o : example.observations.items) o.label = hostile;
+  for (auto& row : example.dataset.robot_poses.rows) row.label = hostile;
   example.estimate.warnings = {hostile};
   example.estimate.outliers.push_back({0, hostile, hostile});
   Requirements requirements = testing::ExampleRequirements();

@@ -89,7 +89,7 @@ TEST_F(InBrowser, ADiscoveryIsDrawnAndSaysWhatItsJsonSays) {
   const std::string html = Html(discovery);
   const std::string dom = Dom(html);
   const int pictures = Count(html, "class=\"plot\"");
-  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 20);
+  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 22);
   EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), pictures);
   EXPECT_GE(Count(dom, "<svg class=\"main-svg\""), pictures - 1);
   EXPECT_LT(html.size(), std::size_t{8} << 20);
@@ -150,7 +150,7 @@ TEST_F(InBrowser, HostileNamesAreOnlyNames) {
               AllOf(HasSubstr("<title>Gap discovery: demo</title>"),
                     Not(HasSubstr("<img")),
                     HasSubstr("&lt;img")));
-  EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), FlatCharts().empty() ? 0 : 20);
+  EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), FlatCharts().empty() ? 0 : 22);
 }
 
 TEST_F(InBrowser, PicturesInSpaceAndFlatOnesStandOnOnePage) {
