@@ -10,11 +10,14 @@
 #include "discovery/answers.h"
 #include "discovery/joint_fit.h"
 #include "discovery/prepare.h"
+#include "discovery/told_part.h"
 
 namespace hexcal {
 namespace {
 
 constexpr const char* kHeldByMounts = "other poses: base and tool explain it as well in these";
+constexpr const char* kNotTold =
+    "other poses or markers: of its best form these tell nothing to ten plausible sizes";
 
 class Screener {
  public:
@@ -23,8 +26,7 @@ class Screener {
         problem_(work.problem.linear),
         p_in_tool_(p_in_tool),
         units_(UnitsOf(work.library)),
-        sites_(SitesOf(work.library)),
-        alone_(FitJointly(problem_, work.selection.noise, {}, kWidePrior, Eigen::VectorXd())) {}
+        sites_(SitesOf(work.library)) {}
 
   Screening Run() {
     Screening result;
@@ -37,7 +39,12 @@ class Screener {
       seen.insert(family);
       const bool is_named = step.added == step.families[k].best.form;
       if (problem_.families[family].is_described && !is_named) continue;
-      result.tested.push_back(Of(step, k, is_named));
+      Hypothesis one = Of(step, k, is_named);
+      if (one.told == 0) {
+        result.not_testable.push_back({one.name, kNotTold});
+        continue;
+      }
+      result.tested.push_back(std::move(one));
       if (is_named)
         result.named.push_back(Sentence(step.families[k].best.form, result.tested.back()));
     }
@@ -73,15 +80,18 @@ class Screener {
     one.bic_change = std::log(rows) * score.rank - score.gain;
     const JointFit fit =
         FitJointly(problem_, work_.selection.noise, {score.form}, kWidePrior, Eigen::VectorXd());
-    const Eigen::Index mounts = fit.mounts.size();
     const FormDefinition& definition = work_.library.forms[score.form];
-    const Eigen::Index largest = LargestOf(definition, form, fit.coefficients);
-    one.size = fit.coefficients[largest];
-    one.standard_uncertainty = std::sqrt(fit.covariance(mounts + largest, mounts + largest));
+    // What is named has told something.
+    const ToldPart part = ToldPartOf(
+        fit, kWidePrior * problem_.scale.segment(form.first, form.size), is_named ? 1 : 0);
+    one.directions = part.directions;
+    one.told = part.told;
+    const Eigen::Index largest = LargestOf(definition, form, part.coefficients);
+    one.size = part.coefficients[largest];
+    one.standard_uncertainty = part.StandardUncertainty(largest);
     one.unit = UnitOf(definition, largest);
-    one.labels = AnswerFor(EffectOf(definition, fit.coefficients), work_.dataset).labels;
-    const Eigen::VectorXd moved = Moved(form, fit);
-    for (const Eigen::Vector3d& p : p_in_tool_) one.at_points.push_back(RmsAt(moved, p));
+    one.labels = AnswerFor(EffectOf(definition, part.coefficients), work_.dataset).labels;
+    AddPoints(form, part, &one);
     return one;
   }
 
@@ -112,14 +122,27 @@ class Screener {
     return sum;
   }
 
-  // How the tool's predicted poses change, frame T, 6 a pose. What only the tracker or a marker
-  // does moves no tool but by what base and tool make of it.
-  Eigen::VectorXd Moved(const Form& form, const JointFit& fit) const {
-    Eigen::VectorXd moved = problem_.nuisance * (fit.mounts - alone_.mounts);
+  // How the tool's predicted poses change, frame T, 6 a pose, with each coefficient. What only the
+  // tracker or a marker does moves no tool but by what base and tool make of it.
+  Eigen::MatrixXd Moved(const Form& form, const ToldPart& part) const {
+    Eigen::MatrixXd moved = problem_.nuisance * part.response;
     const std::string& site = sites_[form.family];
     if (site != "tracker" && site != "marker")
-      moved += problem_.columns->middleCols(form.first, form.size) * fit.coefficients;
+      moved += problem_.columns->middleCols(form.first, form.size);
     return moved;
+  }
+
+  void AddPoints(const Form& form, const ToldPart& part, Hypothesis* one) const {
+    const Eigen::MatrixXd moved = Moved(form, part);
+    const Eigen::VectorXd all = moved * part.coefficients;
+    const Eigen::MatrixXd sigmas = moved * part.root;
+    for (const Eigen::Vector3d& p : p_in_tool_) {
+      double variance = 0.0;
+      for (Eigen::Index k = 0; k < sigmas.cols(); ++k)
+        variance += std::pow(RmsAt(sigmas.col(k), p), 2);
+      one->at_points.push_back(RmsAt(all, p));
+      one->at_points_uncertainty.push_back(std::sqrt(variance));
+    }
   }
 
   double RmsAt(const Eigen::VectorXd& moved, const Eigen::Vector3d& p_in_tool) const {
@@ -146,7 +169,6 @@ class Screener {
   const LinearProblem& problem_;
   const std::vector<Eigen::Vector3d>& p_in_tool_;
   std::vector<std::string> units_, sites_;
-  JointFit alone_;
 };
 
 // Leaves so many poses at most with what was measured of them; all rows stay, since effects

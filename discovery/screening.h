@@ -20,12 +20,16 @@ struct Hypothesis {
   double p_value = 1.0;             // that chance explains so much, all hypotheses paid for
   double own_p_value = 1.0;         // of its best form's test alone
   double log10_p = 0.0;             // of the latter: keeps its digits where that is 0
+  // Directions among its numbers, and those that the data tell (told_part.h). What follows is of
+  // these alone, without a prior.
+  int directions = 0, told = 0;
   // Its largest coefficient in plausible sizes; SI.
   double size = 0.0, standard_uncertainty = 0.0;
   std::string unit;
   double aic_change = 0.0, bic_change = 0.0;  // below zero: for the effect; its search not paid for
-  // RMS over the measured poses of how far its neglect puts each point, base and tool adjusted, m.
-  std::vector<double> at_points;
+  // RMS over the measured poses of how far its neglect puts each point, base and tool adjusted, and
+  // of how uncertain (1-sigma) that displacement is, m.
+  std::vector<double> at_points, at_points_uncertainty;
   bool is_named = false;  // discovery would add it to the model
 };
 
@@ -33,9 +37,9 @@ struct Screening {
   double alpha = 0.01;    // chance that anything is named in data that lack nothing
   int poses = 0, of = 0;  // measured poses that were used: of many, evenly some
   int hypotheses = 0;     // families that were tried, descriptions without a cause among them
-  std::vector<Hypothesis> tested;  // best first; a description only where it is named
-  std::vector<NotTestable> not_testable;
-  std::vector<std::string> named;  // one sentence each, faults of the data among them
+  std::vector<Hypothesis> tested;         // best first; a description only where it is named
+  std::vector<NotTestable> not_testable;  // wholly; in part: Hypothesis::told
+  std::vector<std::string> named;         // one sentence each, faults of the data among them
 };
 
 // p_in_tool: the points. A fraction of Discover's time, as nothing is refitted. InputError as

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <string>
+#include <vector>
+
 #include "report/chart_parts.h"
-#include "report/html/escape.h"
 
 namespace hexcal {
 
@@ -16,26 +18,17 @@ Chart BudgetChart(const PointReport& report) {
   chart.shows =
       "the part of the variance that each source has where the error is worst in the workspace.";
   chart.good = "no single surprise: the longest bar is where better work pays.";
-  Json names = Json::array(), shares = Json::array(), sizes = Json::array();
+  std::vector<std::string> names;
+  Json shares = Json::array(), sizes = Json::array();
   for (const BudgetRow& row : report.budget.rows) {
-    names.push_back(EscapeLabel(LabelOf(row)));
+    names.push_back(LabelOf(row));
     shares.push_back(100.0 * row.share);
     sizes.push_back(fmt::format("{:.4f} mm", 1e3 * row.contribution));
   }
-  chart.data = Json::array({{{"type", "bar"},
-                             {"orientation", "h"},
-                             {"y", names},
-                             {"x", shares},
-                             {"text", sizes},
-                             {"textposition", "none"},  // for narrow screens
-                             {"hovertemplate", "%{y}: %{x:.3g} %, %{text}<extra></extra>"},
-                             {"marker", {{"color", "@after"}}}}});
-  Json y = OpenAxis("");
-  y["autorange"] = "reversed";
-  Json x = Axis("% of the variance", true);
-  chart.layout = {{"height", 130 + 34 * static_cast<int>(report.budget.rows.size())},
-                  {"xaxis", x},
-                  {"yaxis", y}};
+  Json bars = NamedBars(names, shares, "%{x:.3g} %, %{customdata}", &chart.layout);
+  bars["customdata"] = sizes;
+  chart.data = Json::array({bars});
+  chart.layout["xaxis"] = Axis("% of the variance", true);
   return chart;
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/html/escape.h"
+
 namespace hexcal {
 
 using Json = nlohmann::ordered_json;
@@ -72,6 +74,43 @@ Json DotTrace(
            {{"color", is_before ? "@before" : "@after"},
             {"symbol", is_before ? "circle-open" : "circle"},
             {"size", is_before ? 7 : 6}}}};
+}
+
+Json NamedBars(const std::vector<std::string>& names,
+               const Json& lengths,
+               const std::string& hover,
+               Json* layout) {
+  constexpr int kRowHeight = 40, kNameAbove = 16, kRest = 76;  // px
+  Json rows = Json::array(), labels = Json::array(), annotations = Json::array();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    rows.push_back(k);
+    labels.push_back(EscapeLabel(names[k]));
+    annotations.push_back({{"xref", "paper"},
+                           {"x", 0},
+                           {"xanchor", "left"},
+                           {"y", k},
+                           {"yshift", kNameAbove},
+                           {"text", labels.back()},
+                           {"font", {{"size", 12}}},
+                           {"showarrow", false}});
+  }
+  const double last = static_cast<double>(names.size());
+  (*layout)["height"] = kRest + kRowHeight * static_cast<int>(names.size());
+  (*layout)["yaxis"] = {{"range", {last - 0.5, -0.8}},
+                        {"showticklabels", false},
+                        {"showgrid", false},
+                        {"zeroline", false}};
+  (*layout)["margin"] = {{"l", 16}, {"r", 16}, {"t", 12}, {"b", 46}};
+  (*layout)["annotations"] = annotations;
+  return {{"type", "bar"},
+          {"orientation", "h"},
+          {"y", rows},
+          {"x", lengths},
+          {"width", 0.36},
+          {"text", labels},
+          {"textposition", "none"},
+          {"marker", {{"color", "@after"}}},
+          {"hovertemplate", "%{text}: " + hover + "<extra></extra>"}};
 }
 
 Json Level(const char* name, double y, const char* colour) {

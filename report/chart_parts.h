@@ -29,6 +29,14 @@ nlohmann::ordered_json DotTrace(const char* name,
                                 bool is_before,
                                 int panel);
 
+// Horizontal bars, the first on top, with their names (not escaped) above them, where these have
+// room on narrow screens too. hover: of a bar, after its name. Sets the layout's height, y axis and
+// annotations.
+nlohmann::ordered_json NamedBars(const std::vector<std::string>& names,
+                                 const nlohmann::ordered_json& lengths,
+                                 const std::string& hover,
+                                 nlohmann::ordered_json* layout);
+
 // A dashed level across the picture, for "shapes" of a layout.
 nlohmann::ordered_json Level(const char* name, double y, const char* colour);
 

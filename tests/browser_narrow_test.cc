@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "report/audit_html.h"
 #include "report/calibrate_html.h"
@@ -107,7 +108,14 @@ TEST_F(OnANarrowScreen, CalibrationComparisonAndAuditAreWhole) {
                                    scene,
                                    left));
   ExpectNothingWrong(CompareHtml("demo", {}, example.comparison, scene, left));
-  const Audit audit = MakeAudit(example.Input(testing::ExampleRequirements()));
+  const Requirements requirements = testing::ExampleRequirements();
+  AuditInput input = example.Input(requirements);
+  DiscoverOptions options;
+  options.bootstraps = 99;
+  input.missing = Screen(example.dataset, options, {requirements.points[0].p_in_tool});
+  const Audit audit = MakeAudit(std::move(input));
+  ASSERT_TRUE(audit.missing);  // else its pictures are not looked at
+  ASSERT_GT(audit.missing->tested.size(), 12u);
   ExpectNothingWrong(AuditHtml({}, {}, audit, ResultJson(audit.header, audit.estimate)));
 }
 
