@@ -3,6 +3,8 @@
 
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -20,12 +22,16 @@ class Browser {
   std::string Dom(const std::string& html) { return Open(html, {"--dump-dom"}); }
 
   // The page in a frame so many px wide (a window cannot be as narrow as a telephone), with this
-  // script beside it, which may look into the frame with the id "framed".
+  // script beside it, which may look into the frame with the id "framed". The page is written into
+  // the frame, not fetched: its own time would run out while a busy browser still fetches.
   std::string FramedDom(const std::string& html, int width, const std::string& script) {
-    folder_.Write("framed.html", html);
-    return Open("<iframe id=\"framed\" src=\"framed.html\" height=\"900\" width=\"" +
-                    std::to_string(width) + "\"></iframe>\n<script>" + script + "</script>",
-                {"--allow-file-access-from-files", "--dump-dom"});
+    const std::string text = std::regex_replace(
+        nlohmann::json(html).dump(-1, ' ', /*ensure_ascii=*/true), std::regex("<"), "\\u003c");
+    return Open("<iframe id=\"framed\" height=\"900\" width=\"" + std::to_string(width) +
+                    "\"></iframe>\n<script>const inside = document.getElementById(\"framed\")"
+                    ".contentDocument; inside.open(); inside.write(" +
+                    text + "); inside.close();</script>\n<script>" + script + "</script>",
+                {"--dump-dom"});
   }
 
   // The page on paper: the bytes of a PDF.
