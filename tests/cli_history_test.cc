@@ -90,6 +90,7 @@ TEST_F(CliHistory, KeepsWhatWasCalibratedByWhom) {
   EXPECT_EQ(trend["records"][1]["same_readings_as"], 1);
   EXPECT_EQ(trend["in_control"], 1);
   EXPECT_EQ(record["settings"]["solver"], "nonlinear");
+  EXPECT_EQ(record["revision"], RunRecord()["revision"]);
   EXPECT_THAT(Run({"history", "list", "h.sqlite"}).out,
               AllOf(HasSubstr("neurobot"), HasSubstr(head.substr(0, 12)), HasSubstr("<b>Body")));
   EXPECT_THAT(Run({"history", "show", "h.sqlite", "2"}).out,

@@ -25,6 +25,7 @@ using ::hexcal::testing::Intruder;
 using ::hexcal::testing::MakeHistory;
 using ::hexcal::testing::TemporaryFolder;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(HistoryRecord, TextReadsBackToTheLastBit) {
   HistoryRecord record = AnyRecord("d", 3);
@@ -46,6 +47,18 @@ TEST(HistoryRecord, TextReadsBackToTheLastBit) {
   EXPECT_TRUE(read->known.determined[5]);
   EXPECT_EQ(read->warnings, record.warnings);
   EXPECT_EQ(read->settings, record.settings);
+  EXPECT_EQ(read->revision, "0123456789ab");
+}
+
+TEST(HistoryRecord, OlderOnesHaveNoRevision) {
+  HistoryRecord record = AnyRecord("d", 3);
+  record.revision.clear();
+  const std::string text = CanonicalText(record);
+  EXPECT_THAT(text, Not(HasSubstr("revision")));
+  const auto read = ParseRecord(text);
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->revision, "");
+  EXPECT_EQ(CanonicalText(*read), text);
 }
 
 TEST(HistoryRecord, IsNotWhatIsNoRecord) {

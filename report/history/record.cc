@@ -71,6 +71,7 @@ void ReadIdentity(const Json& json, HistoryRecord* record) {
   record->written = json.at("written");
   record->author = {json.at("user"), json.at("host"), json.at("operator")};
   record->version = json.at("version");
+  record->revision = json.value("revision", "");
   record->command = json.at("command");
   record->dataset = json.at("dataset");
   for (const Json& file : json.at("inputs"))
@@ -135,6 +136,7 @@ HistoryRecord MakeHistoryRecord(std::string_view command,
   HistoryRecord record;
   record.written = run.started_utc;
   record.version = run.version.substr(0, run.version.find('\n'));
+  record.revision = run.revision;
   record.command = command;
   record.dataset = header.dataset;
   record.inputs = HashFiles(run.inputs);
@@ -171,6 +173,7 @@ std::string CanonicalText(const HistoryRecord& record) {
   json["host"] = record.author.host;
   json["operator"] = record.author.operator_name;
   json["version"] = record.version;
+  if (!record.revision.empty()) json["revision"] = record.revision;
   json["command"] = record.command;
   json["dataset"] = record.dataset;
   json["inputs"] = Json::array();

@@ -26,7 +26,8 @@ struct HistoryRecord {
   std::string previous;  // the hash of the record before; of the first, kNoHash
   std::string written;   // ISO 8601, UTC
   Author author;
-  std::string version;  // of hexcal
+  std::string version;   // of hexcal
+  std::string revision;  // the commit it was built from; empty: an older record, which has none
   std::string command, dataset;
   std::vector<HashedFile> inputs;
   std::string readings_sha256;  // of the input that holds what the tracker read

@@ -132,7 +132,8 @@ std::string HistoryRecordText(const StoredRecord& row) {
   line("follows", row.previous);
   line("written", r.written);
   line("by", TextOf(r.author));
-  line("with", r.version);
+  line("with",
+       r.revision.empty() ? r.version : fmt::format("{}, revision {}", r.version, r.revision));
   line("way", WayOf(r));
   line("poses", fmt::format("{}{}", r.poses, r.is_trusted ? "" : ", not trusted"));
   for (const HashedFile& file : r.inputs) line("input", file.sha256 + "  " + file.path);

@@ -12,6 +12,7 @@ namespace hexcal::testing {
 // size, by number.
 inline HistoryRecord AnyRecord(const std::string& dataset, int i) {
   HistoryRecord record;
+  record.revision = "0123456789ab";
   record.written = "2026-11-23T02:03:0" + std::to_string(i % 10) + "Z";
   record.author = {"user", "host", "operator"};
   record.version = "hexcal 0.1.0";
