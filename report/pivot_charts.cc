@@ -98,7 +98,7 @@ Chart PivotSceneChart(const PivotPoses& poses, const PivotResult& result) {
   Json pivot = SpaceTrace("pivot", "markers", {result.x.pivot_in_world}, 0, "@ink");
   pivot["marker"]["size"] = 6;
   chart.data.push_back(pivot);
-  chart.layout = SpaceLayout();
+  chart.layout = SpaceLayout(chart.data);
   chart.table = {{{"reading"}, {"x, mm", true}, {"y, mm", true}, {"z, mm", true}, {""}}, {}};
   for (std::size_t i = 0; i < result.rows.size(); i += stride) {
     std::vector<std::string> row = {result.rows[i].label};

@@ -52,7 +52,12 @@ double SizeOf(const Scene& scene) {
   return (high - low).norm();
 }
 
-void AddFrame(const char* name, const Pose3d& world_from_frame, double length, Json* data) {
+// position: of the words, so that two frames in one place can both be read.
+void AddFrame(const char* name,
+              const Pose3d& world_from_frame,
+              double length,
+              const char* position,
+              Json* data) {
   constexpr const char* kColours[3] = {"@before", "@good", "@after"};
   for (int k = 0; k < 3; ++k) {
     const Points axis = {world_from_frame.translation,
@@ -60,6 +65,7 @@ void AddFrame(const char* name, const Pose3d& world_from_frame, double length, J
     Json trace = SpaceTrace(name, "lines+text", axis, 0, kColours[k]);
     trace["text"] = Json::array({k == 0 ? name : "", std::string(1, "xyz"[k])});
     trace["textfont"] = {{"size", 11}};
+    trace["textposition"] = position;
     trace["showlegend"] = false;
     data->push_back(trace);
   }
@@ -190,10 +196,10 @@ Chart SceneChart(const Scene& scene) {
   chart.good =
       "arrows in all directions. Neighbours that point the same way mean that the model misses "
       "something; a long, thin ellipsoid says along which direction the poses tell least.";
-  AddFrame("W", {}, 0.12 * size, &chart.data);
-  AddFrame("B", scene.world_from_base, 0.12 * size, &chart.data);
-  AddFrame("A", scene.world_from_platform, 0.08 * size, &chart.data);
-  AddFrame("T", scene.world_from_tool, 0.08 * size, &chart.data);
+  AddFrame("W", {}, 0.12 * size, "bottom right", &chart.data);
+  AddFrame("B", scene.world_from_base, 0.12 * size, "top left", &chart.data);
+  AddFrame("A", scene.world_from_platform, 0.08 * size, "bottom left", &chart.data);
+  AddFrame("T", scene.world_from_tool, 0.08 * size, "top right", &chart.data);
   Points legs, ends, ends_before, places, markers;
   for (const auto& [base, platform] : scene.legs) legs.push_back(base), legs.push_back(platform);
   Json names = Json::array(), labels = Json::array();
@@ -226,7 +232,7 @@ Chart SceneChart(const Scene& scene) {
                  2,
                  has_before ? "@after" : "@before"));
   if (widest > 0.0) chart.data.push_back(Ellipsoid(scene, ellipsoid));
-  chart.layout = SpaceLayout();
+  chart.layout = SpaceLayout(chart.data);
   chart.table = ArrowTable(scene);
   return chart;
 }

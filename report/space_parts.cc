@@ -32,21 +32,33 @@ Json SpaceTrace(const std::string& name,
           {"marker", {{"color", colour}, {"size", 3}}}};
 }
 
-Json SpaceLayout() {
-  const Json axis = {{"title", {{"text", ""}}},
-                     {"gridcolor", "@grid"},
-                     {"zerolinecolor", "@grid"},
-                     {"color", "@muted"}};
+Json SpaceLayout(const Json& data) {
+  constexpr const char* kAxes[3] = {"x", "y", "z"};
+  constexpr double kRoom = 1.0 / 32.0;  // at both ends, of the widest
+  Eigen::Array3d low = Eigen::Array3d::Constant(HUGE_VAL), high = -low;
+  for (const Json& trace : data)
+    for (int k = 0; k < 3; ++k)
+      for (const Json& value : trace[kAxes[k]])
+        if (value.is_number()) {
+          low[k] = std::min(low[k], value.get<double>());
+          high[k] = std::max(high[k], value.get<double>());
+        }
+  const Eigen::Array3d middle = 0.5 * (low + high);
+  const double widest = std::max((high - low).maxCoeff(), 1e-9);
+  const Eigen::Array3d half = 0.5 * (high - low).max(0.1 * widest) + kRoom * widest;
+  Json scene = {{"aspectmode", "manual"}};
+  for (int k = 0; k < 3; ++k) {
+    scene["aspectratio"][kAxes[k]] = 2.0 * half[k] / half.matrix().norm();
+    scene[std::string(kAxes[k]) + "axis"] = {{"title", {{"text", ""}}},
+                                             {"range", {middle[k] - half[k], middle[k] + half[k]}},
+                                             {"gridcolor", "@grid"},
+                                             {"zerolinecolor", "@grid"},
+                                             {"color", "@muted"}};
+  }
   return {{"height", 560},
           {"margin", {{"l", 0}, {"r", 0}, {"t", 40}, {"b", 0}}},
-          {"scene",
-           {{"aspectmode", "data"},
-            {"camera",
-             {{"eye", {{"x", 1.4}, {"y", 1.4}, {"z", 0.9}}},
-              {"center", {{"x", 0.0}, {"y", 0.0}, {"z", -0.12}}}}},
-            {"xaxis", axis},
-            {"yaxis", axis},
-            {"zaxis", axis}}}};
+          {"legend", {{"itemsizing", "constant"}}},
+          {"scene", scene}};
 }
 
 double RoundFactor(double x) {

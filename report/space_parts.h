@@ -17,8 +17,9 @@ nlohmann::ordered_json SpaceTrace(const std::string& name,
                                   std::size_t run,
                                   const char* colour);
 
-// Seen from above one corner, all axes at one scale.
-nlohmann::ordered_json SpaceLayout();
+// All axes at one scale, about all points of these traces: a box whose diagonal is 2, so that the
+// page knows from how far it is seen whole (assets/page.js).
+nlohmann::ordered_json SpaceLayout(const nlohmann::ordered_json& data);
 
 // By how much what is too small to be seen is enlarged: 1, 2 or 5 times a power of ten, not above
 // x.

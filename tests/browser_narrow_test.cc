@@ -12,6 +12,7 @@
 #include "report/discovery_html.h"
 #include "report/html/assets.h"
 #include "report/pivot_html.h"
+#include "report/space_parts.h"
 #include "testing/audits.h"
 #include "testing/browser.h"
 #include "testing/discoveries.h"
@@ -25,8 +26,28 @@ using ::testing::HasSubstr;
 // Writes what is wrong into a paragraph once all pictures are drawn. What scrolls may be wider.
 // Slanted labels may overlap by their boxes, not by their letters: they are not compared.
 constexpr char kLook[] = R"(
+// What is drawn in space has no boxes: at the edges of its canvas there is nothing, else it is cut
+// off there; no axis has more words than there is room for.
+function edges(plot, found) {
+  const inside = plot._fullLayout && plot._fullLayout.scene && plot._fullLayout.scene._scene;
+  if (!inside) return;
+  const gl = inside.glplot.gl, name = plot.getAttribute("aria-label");
+  const width = gl.drawingBufferWidth, height = gl.drawingBufferHeight;
+  inside.glplot.redraw();
+  const read = function (x, y, w, h) {
+    const pixels = new Uint8Array(4 * w * h);
+    gl.readPixels(x, y, w, h, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    return pixels.filter((value, i) => i % 4 === 3 && value > 0).length;
+  };
+  if (read(0, 0, width, height) < 100) found.push("nothing is drawn: " + name);
+  if (read(0, 0, 2, height) + read(width - 2, 0, 2, height) + read(0, 0, width, 2) + read(0, height - 2, width, 2))
+    found.push("cut off in space: " + name);
+  for (const k of [0, 1, 2])
+    if (inside.glplot.axes.ticks[k].length > 6) found.push("crowded in space: " + name);
+}
 function lines(page) {
   const found = [];
+  for (const plot of page.querySelectorAll(".plot")) edges(plot, found);
   if (page.documentElement.scrollWidth > 400) found.push("the page is too wide");
   for (const e of page.querySelectorAll("body *"))
     if (!e.closest(".scroll") && !e.closest(".plot") && e.getBoundingClientRect().right > 401)
@@ -81,6 +102,24 @@ TEST_F(OnANarrowScreen, WhatIsWrongIsFound) {
   chart.layout["xaxis"]["title"]["text"] = std::string(99, 'x');
   page.Figure(chart);
   EXPECT_THAT(browser.FramedDom(page.Html(), 400, kLook), HasSubstr("cut off: xxx"));
+}
+
+// Too near to be seen whole.
+TEST_F(OnANarrowScreen, WhatIsCutOffInSpaceIsFound) {
+  HtmlPage page("test", "t", "s");
+  Chart chart;
+  chart.is_in_space = true;
+  chart.data.push_back(SpaceTrace(
+      "a", "lines", {Eigen::Vector3d::Zero(), Eigen::Vector3d(0.3, 0.2, 0.1)}, 0, "@ink"));
+  chart.layout = SpaceLayout(chart.data);
+  page.Figure(chart);
+  ExpectNothingWrong(page.Html());
+  for (const char* axis : {"x", "y", "z"})
+    for (auto& end : chart.layout["scene"][std::string(axis) + "axis"]["range"])
+      end = 0.4 * end.get<double>();
+  HtmlPage near("test", "t", "s");
+  near.Figure(chart);
+  EXPECT_THAT(browser.FramedDom(near.Html(), 400, kLook), HasSubstr("cut off in space: "));
 }
 
 TEST_F(OnANarrowScreen, ADiscoveryIsWhole) {

@@ -117,6 +117,29 @@ TEST(SceneOfADiscovery, HasArrowsBeforeAndAfter) {
   EXPECT_FALSE(MakeScene(testing::DatasetOf(discovery), discovery).arrows[0].before.has_value());
 }
 
+// All points are within the ranges, and a mm is as long along each axis.
+TEST_F(SceneTest, TheBoxHoldsAllPointsAtOneScale) {
+  const Chart chart = SceneChart(Make());
+  const auto& scene = chart.layout["scene"];
+  double diagonal = 0.0;
+  std::vector<double> scales;
+  for (const std::string axis : {"x", "y", "z"}) {
+    const auto& range = scene[axis + "axis"]["range"];
+    const double low = range[0], high = range[1], ratio = scene["aspectratio"][axis];
+    for (const auto& trace : chart.data)
+      for (const auto& x : trace[axis])
+        if (!x.is_null()) {
+          EXPECT_GT(x.get<double>(), low);
+          EXPECT_LT(x.get<double>(), high);
+        }
+    scales.push_back(ratio / (high - low));
+    diagonal += ratio * ratio;
+  }
+  EXPECT_NEAR(scales[0], scales[1], 1e-12 * scales[0]);
+  EXPECT_NEAR(scales[0], scales[2], 1e-12 * scales[0]);
+  EXPECT_NEAR(diagonal, 4.0, 1e-12);
+}
+
 // No noise, no legs: still a picture, without numbers that are none.
 TEST_F(SceneTest, OfExactDataHasNoInfinity) {
   Scene scene = Make();

@@ -34,6 +34,41 @@
     return copy;
   }
 
+  // In space, all of a box is seen from above one corner, with room at its sides for the words.
+  // From distance 1 a camera sees kSeen to each side of its middle, up and down. A legend of many
+  // lines makes the picture lower, not its words smaller.
+  const kSeen = Math.tan(Math.PI / 8), kNarrow = 400, kLegend = 100;
+  const kFrom = [0.65, 0.65, 0.39], kRight = [-0.707, 0.707, 0], kUp = [-0.276, -0.276, 0.92];
+  const kAt = [0, 0, -0.14];  // the near corner below is nearer than that above
+  function dot(a, b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+  function distanceTo(box, seenAcross, seenUp) {
+    let distance = 0;
+    for (let corner = 0; corner < 8; ++corner) {
+      const p = box.map(function (length, k) { return (corner >> k & 1 ? 0.5 : -0.5) * length - kAt[k]; });
+      const needed = Math.max(Math.abs(dot(p, kRight)) / seenAcross, Math.abs(dot(p, kUp)) / seenUp);
+      distance = Math.max(distance, dot(p, kFrom) + needed);
+    }
+    return distance;
+  }
+
+  function inSpace(scene, width, height) {
+    const isNarrow = Math.min(width, height) < kNarrow, room = isNarrow ? 42 : 30;
+    const ratio = scene.aspectratio, lower = width < kNarrow ? height - kLegend : height;
+    const distance = distanceTo(
+      [ratio.x, ratio.y, ratio.z], kSeen * (width - 2 * room) / height, kSeen * (1 - 2 * room / lower));
+    const copy = Object.assign({}, scene, {
+      camera: {
+        eye: { x: distance * kFrom[0], y: distance * kFrom[1], z: distance * kFrom[2] + kAt[2] },
+        center: { x: 0, y: 0, z: kAt[2] }
+      }
+    });
+    Object.keys(scene).filter(isAxis).forEach(function (key) {
+      copy[key] = Object.assign({ nticks: isNarrow ? 5 : 7, tickfont: { size: isNarrow ? 10 : 11 } }, scene[key]);
+    });
+    return copy;
+  }
+
   function isAxis(key) { return /^[xyz]axis[0-9]*$/.test(key); }
 
   function isHalf(plot) {
@@ -46,9 +81,9 @@
       autosize: true, margin: { l: 62, r: 16, t: 12, b: 46 }, hovermode: "closest", dragmode: "zoom",
       font: { family: "system-ui, DejaVu Sans, sans-serif", size: 13, color: colours.ink },
       paper_bgcolor: colours.clear, plot_bgcolor: colours.clear,
-      modebar: { bgcolor: colours.clear, color: colours.muted, activecolor: colours.ink },
-      legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom" }
+      modebar: { bgcolor: colours.clear, color: colours.muted, activecolor: colours.ink }
     }, layout);
+    full.legend = Object.assign({ orientation: "h", x: 0, y: 1.02, yanchor: "bottom" }, layout.legend);
     if (!full.scene) {
       full.xaxis = full.xaxis || {};
       full.yaxis = full.yaxis || {};
@@ -62,6 +97,9 @@
       full.width = isHalf(plot) ? kPrintHalf : kPrintWidth;
       full.height = Math.round(kPrintHeight * Number(plot.dataset.height));
       full.font = Object.assign({}, full.font, { size: kPrintFont });
+    }
+    if (full.scene) {
+      full.scene = inSpace(full.scene, full.width || plot.clientWidth, full.height - full.margin.t);
     }
     return full;
   }
