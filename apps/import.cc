@@ -5,6 +5,7 @@
 
 #include "apps/exit_status.h"
 #include "apps/flags.h"
+#include "apps/hand_edits.h"
 #include "apps/import_conventions.h"
 #include "apps/import_options.h"
 #include "apps/message.h"
@@ -106,6 +107,7 @@ NamedFiles FilesOf(const Assembled& assembled, const std::vector<std::string>& a
     if (name == DatasetFiles().front().name)
       content = CommandText(arguments) + WithComments(content, assembled);
   }
+  SignFiles(files, DatasetFiles().front().name);
   return files;
 }
 
@@ -157,6 +159,7 @@ int RunImport(const std::vector<std::string>& files) {
   if (!FLAGS_hexapod.empty()) assembled.dataset.hexapod = ReadHexapodFile(FLAGS_hexapod);
   for (const std::string& warning : assembled.dataset.warnings) PrintWarning(warning);
   OutputFolder folder(FLAGS_out, "", DatasetFiles(), InputsOf(own_files), FLAGS_force);
+  if (!FLAGS_force) RequireUnchanged(folder, DatasetFiles().front().name);
   const NamedFiles dataset_files = FilesOf(assembled, files);
   TryReading(dataset_files, assembled.dataset.measurement.has_value(), FLAGS_out);
   const std::optional<std::size_t> tried =

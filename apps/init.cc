@@ -7,6 +7,7 @@
 
 #include "apps/exit_status.h"
 #include "apps/flags.h"
+#include "apps/hand_edits.h"
 #include "apps/import_options.h"
 #include "apps/init_texts.h"
 #include "apps/output_folder.h"
@@ -41,10 +42,12 @@ int RunInit(const std::vector<std::string>& /*files*/) {
                       {{"dataset.yaml", std::string(kMark)}, {"poses.csv", ""}, {table, ""}},
                       {},
                       FLAGS_force);
-  const std::vector<std::pair<std::string, std::string>> written = {
+  if (!FLAGS_force) RequireUnchanged(folder, "dataset.yaml");
+  std::vector<std::pair<std::string, std::string>> written = {
       {"dataset.yaml", description},
       {"poses.csv", std::string(InitRobotTable())},
       {table, std::string(by_poses ? InitMeasuredTable() : InitMarkersTable())}};
+  SignFiles(written, "dataset.yaml");
   folder.Write(written);
   if (FLAGS_quiet) return kDone;
   const std::vector<std::string> paths = folder.PathsOf(written);

@@ -73,5 +73,22 @@ TEST(CliInit, ReplacesNothingOfOthers) {
   EXPECT_EQ(Call({"init"}, folder).status, 2);
 }
 
+// The files are made to be worked on.
+TEST(CliInit, ReplacesNothingThatWasWorkedOn) {
+  for (const std::string file : {"mine/dataset.yaml", "mine/poses.csv", "mine/markers.csv"}) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(Call({"init", "--out=mine"}, folder).status, 0);
+    std::string text = folder.Read(file);
+    text[text.size() - 2] = text[text.size() - 2] == '1' ? '2' : '1';  // the last digit or letter
+    folder.Write(file, text);
+    const ProgramResult refused = Call({"init", "--out=mine"}, folder);
+    EXPECT_EQ(refused.status, 5) << file;
+    EXPECT_THAT(refused.err, HasSubstr("was changed since hexcal wrote it (--force replaces it)"));
+    EXPECT_EQ(folder.Read(file), text);
+    EXPECT_EQ(Call({"init", "--out=mine", "--force"}, folder).status, 0) << file;
+    EXPECT_NE(folder.Read(file), text);
+  }
+}
+
 }  // namespace
 }  // namespace hexcal
