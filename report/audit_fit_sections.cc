@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "report/audit_sections.h"
 #include "report/estimate_charts.h"
@@ -11,6 +14,16 @@
 
 namespace hexcal {
 namespace {
+
+// Of each pose of the pictures, whether the fit used it.
+std::vector<bool> UsedPosesOf(const Audit& audit) {
+  std::set<std::string> left_out;
+  for (const PoseResult& pose : audit.estimate.poses)
+    if (!(pose.weight > 0.0)) left_out.insert(pose.label);
+  std::vector<bool> used;
+  for (const PoseCheck& pose : audit.poses) used.push_back(left_out.count(pose.label) == 0);
+  return used;
+}
 
 void AddOutliers(const Audit& audit, HtmlPage* page) {
   page->Heading("Outliers");
@@ -26,7 +39,7 @@ void AddOutliers(const Audit& audit, HtmlPage* page) {
                           is_used ? "yes" : "left out"});
   }
   if (!table.rows.empty()) page->Table(table);
-  if (!audit.poses.empty()) page->Figure(SmallestChart(audit.poses));
+  if (!audit.poses.empty()) page->Figure(SmallestChart(audit.poses, UsedPosesOf(audit)));
   if (audit.readings) return AddReadings(*audit.readings, page);
   if (audit.grown)
     page->Note("With effects of a model poses are tested as a whole, single marker readings not.");
@@ -73,7 +86,8 @@ void AddGoodnessOfFit(const Audit& audit, HtmlPage* page) {
       "on the budget and on the workspace.");
   if (CountLeftOut(estimate) > 0)
     page->Note(
-        "Poses that were left out are in the pictures of residuals, where they stand apart; no "
+        "Poses that were left out are in the pictures pose by pose, as crosses, and in the "
+        "map of the legs; no "
         "figure (chi-square, RMS, a marker's mean, held-out poses) has them in it" +
         std::string(audit.header.loss.kind == LossKind::kNone
                         ? "."
@@ -110,6 +124,11 @@ void AddValidation(const Audit& audit, HtmlPage* page) {
                   held.inside,
                   held.poses,
                   held.fewest));
+  if (audit.comparison.folds > 0)
+    page->Note(fmt::format(
+        "One pose at a time; the figures by method, in the section on linearized against "
+        "nonlinear, leave out one of {} parts of the poses at a time, and differ a little for it.",
+        audit.comparison.folds));
   if (audit.header.loss.kind != LossKind::kNone)
     page->Note(
         "The others weigh as in the fit. A pose that the loss weighs down counts here in full, one "
@@ -133,7 +152,7 @@ void AddValidation(const Audit& audit, HtmlPage* page) {
                   held.coverage->HoldsNominal()
                       ? "95 % is among them."
                       : "95 % is not among them: noise or model are not what they are taken for."));
-  page->Figure(HeldOutChart(audit.poses));
+  page->Figure(HeldOutChart(audit.poses, UsedPosesOf(audit)));
   AddBias(audit, page);
 }
 

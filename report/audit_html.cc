@@ -32,8 +32,12 @@ Tone ToneOf(Compliance compliance) {
 
 void AddVerdict(const Audit& audit, HtmlPage* page) {
   std::string sentence;
-  for (const Decision& decision : audit.decisions)
-    sentence += (sentence.empty() ? "" : " ") + decision.reason;
+  for (const Decision& decision : audit.decisions) {
+    if (!sentence.empty()) sentence += " ";
+    if (audit.decisions.size() > 1)
+      sentence += fmt::format("{} ({}): ", decision.requirement.name, NameOf(decision.compliance));
+    sentence += decision.reason;
+  }
   if (audit.decisions.empty())
     sentence =
         "No requirement was given (--requirement): nothing is decided, everything is measured.";

@@ -146,7 +146,7 @@ Json AuditObject(const AuditIdentity& identity, const Audit& audit) {
   for (const auto& range : audit.workspace.box) box.push_back({range[0], range[1]});
   json["workspace"] = {{"ranges", box},
                        {"stated", audit.workspace.is_stated},
-                       {"measured", audit.workspace.is_measured},
+                       {"measured", audit.workspace.IsMeasured()},
                        {"places", audit.places}};
   json["pose_design"] = JsonPoseDesign(audit.design);
   json["points"] = Points(audit);

@@ -31,10 +31,11 @@ void AddAccuracy(const Audit& audit, HtmlPage* page) {
       "{} {} places of a grid over it were looked at{}.",
       audit.workspace.is_stated ? "As the requirement file has it." : "What the poses span.",
       audit.places,
-      audit.workspace.is_measured
+      audit.workspace.IsMeasured()
           ? ""
-          : "; it reaches beyond the poses that were measured, where nothing "
-            "but the model speaks"));
+          : fmt::format("; it reaches beyond all poses that were measured, in {}: nothing but the "
+                        "model speaks there",
+                        BeyondPoses(audit.workspace))));
   HtmlTable table = {{{"point"},
                       {"where"},
                       {"RMS, mm", true},

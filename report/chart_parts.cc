@@ -76,6 +76,25 @@ Json DotTrace(
             {"size", is_before ? 7 : 6}}}};
 }
 
+void MarkLeftOut(const std::vector<bool>& used, Json* trace, const char* symbol_of_left_out) {
+  constexpr int kLarger = 4;
+  if (LeftOutNote(used).empty()) return;
+  Json& marker = (*trace)["marker"];
+  const Json symbol = marker.value("symbol", "circle"), size = marker["size"];
+  Json symbols = Json::array(), sizes = Json::array();
+  for (const bool is_used : used) {
+    symbols.push_back(is_used ? symbol : Json(symbol_of_left_out));
+    sizes.push_back(is_used ? size : Json(size.get<int>() + kLarger));
+  }
+  marker["symbol"] = symbols, marker["size"] = sizes;
+}
+
+std::string LeftOutNote(const std::vector<bool>& used) {
+  return std::count(used.begin(), used.end(), false) == 0
+             ? ""
+             : " A cross is of a pose that was left out of the fit.";
+}
+
 Json NamedBars(const std::vector<std::string>& names,
                const Json& lengths,
                const std::string& hover,

@@ -29,6 +29,13 @@ nlohmann::ordered_json DotTrace(const char* name,
                                 bool is_before,
                                 int panel);
 
+// Sets dots off that stand for poses that were left out of a fit: used, of each dot. And what says
+// so in words: empty where all were used.
+void MarkLeftOut(const std::vector<bool>& used,
+                 nlohmann::ordered_json* trace,
+                 const char* symbol = "x-thin-open");
+std::string LeftOutNote(const std::vector<bool>& used);
+
 // Horizontal bars, the first on top, with their names (not escaped) above them, where these have
 // room on narrow screens too. hover: of a bar, after its name. Sets the layout's height, y axis and
 // annotations.

@@ -30,10 +30,12 @@ void AddMethods(const Comparison& comparison, HtmlPage* page) {
          method.fit.converged ? "yes" : "no"});
   }
   page->Table(table);
-  page->Note(
+  page->Note(fmt::format(
       "Differences are from the nonlinear solution by poses, the largest of the 12. Held out: RMS "
-      "error of poses that the method has not seen, with the noise of their own measurement in "
-      "it.");
+      "error of poses that the method has not seen{}, with the noise of their own measurement in "
+      "it.",
+      comparison.folds > 0 ? fmt::format(", one of {} parts of them at a time", comparison.folds)
+                           : ""));
   std::vector<Chart> arrivals;
   for (const MethodResult& method : comparison.methods)
     if (method.method == Method::kPaper || method.method == Method::kNonlinear)

@@ -25,13 +25,16 @@ double Shown(const Vector6d& pose_vector, int number) {
 
 Json TraceOf(const PoseResiduals& residuals, int number, int axis, std::size_t stride) {
   Json x = Json::array(), y = Json::array();
+  std::vector<bool> used;
   for (std::size_t i = 0; i < residuals.coordinates.size(); i += stride) {
     x.push_back(Shown(residuals.coordinates[i], number));
     y.push_back(kMilli * residuals.after.error[i][axis]);
+    used.push_back(residuals.used[i]);
   }
   Json trace = DotTrace(kAxes[axis], x, y, Json::array(), false, number + 1);
   trace.erase("text");
   trace["marker"] = {{"color", kColours[axis % 3]}, {"size", 4}};
+  MarkLeftOut(used, &trace);
   return trace;
 }
 
@@ -40,11 +43,13 @@ HtmlTable CorrelationTable(const PoseResiduals& residuals, int first) {
   for (int axis = first; axis < first + 3; ++axis) table.columns.push_back({kAxes[axis], true});
   for (int number = 0; number < 6; ++number) {
     std::vector<double> coordinate;
-    for (const Vector6d& pose : residuals.coordinates) coordinate.push_back(pose[number]);
+    for (std::size_t i = 0; i < residuals.coordinates.size(); ++i)
+      if (residuals.used[i]) coordinate.push_back(residuals.coordinates[i][number]);
     std::vector<std::string> row = {kAxes[number]};
     for (int axis = first; axis < first + 3; ++axis) {
       std::vector<double> error;
-      for (const Vector6d& residual : residuals.after.error) error.push_back(residual[axis]);
+      for (std::size_t i = 0; i < residuals.after.error.size(); ++i)
+        if (residuals.used[i]) error.push_back(residuals.after.error[i][axis]);
       const double correlation = CorrelationOf(coordinate, error);
       row.push_back(std::isfinite(correlation) ? fmt::format("{:.2f}", correlation) : "–");
     }
@@ -66,7 +71,8 @@ Chart ChartOf(const PoseResiduals& residuals, int first) {
       "of the pose that the robot reported, T_A^B.{} The table has their correlations.",
       is_position ? "along" : "about",
       is_position ? "mm" : "mrad",
-      stride > 1 ? fmt::format(" One pose in {} is drawn.", stride) : "");
+      (stride > 1 ? fmt::format(" One pose in {} is drawn.", stride) : "") +
+          LeftOutNote(residuals.used));
   chart.good =
       "bands about zero with the same width everywhere; a slope, a bow, or a fan says that an "
       "error "

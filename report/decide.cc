@@ -75,6 +75,16 @@ std::string Sentence(const Decision& decision, const NamedPoint& point, const Au
   return fmt::format("{} within the limit of {}, but {}.", size, limit, why);
 }
 
+// What a sentence about the workspace rests on where no pose was.
+std::string Reservation(const Audit& audit, const Requirement& requirement) {
+  const std::string beyond = BeyondPoses(audit.workspace);
+  if (requirement.over != Requirement::Places::kWorkspace || beyond.empty()) return "";
+  return fmt::format(
+      " This is in part extrapolated by the model: no pose was measured at the ends of the "
+      "workspace in {}.",
+      beyond);
+}
+
 }  // namespace
 
 Worst WorstPlace(const TargetError& error,
@@ -146,7 +156,7 @@ Decision Decide(const Audit& audit,
     decision.compliance = Compliance::kPass;
   if (decision.value - decision.guard > requirement.limit && !audit.global.is_too_small)
     decision.compliance = Compliance::kFail;
-  decision.reason = Sentence(decision, point, audit);
+  decision.reason = Sentence(decision, point, audit) + Reservation(audit, requirement);
   return decision;
 }
 

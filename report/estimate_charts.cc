@@ -74,7 +74,7 @@ Chart ConvergenceChart(const std::vector<IterationRecord>& iterations, const std
   return chart;
 }
 
-Chart HeldOutChart(const std::vector<PoseCheck>& poses) {
+Chart HeldOutChart(const std::vector<PoseCheck>& poses, const std::vector<bool>& used) {
   Chart chart;
   chart.title = "Each pose as the others predict it";
   chart.shows =
@@ -87,7 +87,7 @@ Chart HeldOutChart(const std::vector<PoseCheck>& poses) {
       {{"pose"}, {"squared sigmas", true}, {"position, mm", true}, {"orientation, mrad", true}},
       {}};
   const DrawnPoses drawn(LabelsOf(poses));
-  chart.shows += drawn.note;
+  chart.shows += drawn.note + LeftOutNote(drawn.Of(used));
   for (const std::size_t i : drawn.indices) {
     const PoseCheck& pose = poses[i];
     values.push_back(pose.squared);
@@ -97,6 +97,7 @@ Chart HeldOutChart(const std::vector<PoseCheck>& poses) {
                                 fmt::format("{:.4f}", kMilli * pose.held_out.tail<3>().norm())});
   }
   Json trace = DotTrace("poses", drawn.order, values, drawn.labels, false, 1);
+  MarkLeftOut(drawn.Of(used), &trace);
   chart.data = Json::array({trace});
   chart.layout = {{"height", 340},
                   {"shapes", Json::array({Level("95 %", limit, "@floor")})},
@@ -105,7 +106,7 @@ Chart HeldOutChart(const std::vector<PoseCheck>& poses) {
   return chart;
 }
 
-Chart SmallestChart(const std::vector<PoseCheck>& poses) {
+Chart SmallestChart(const std::vector<PoseCheck>& poses, const std::vector<bool>& used) {
   Chart chart;
   chart.title = "The smallest error of a pose that would be found";
   chart.shows =
@@ -120,7 +121,7 @@ Chart SmallestChart(const std::vector<PoseCheck>& poses) {
   chart.table = {
       {{"pose"}, {"position, mm", true}, {"orientation, mrad", true}, {"redundancy", true}}, {}};
   const DrawnPoses drawn(LabelsOf(poses));
-  chart.shows += drawn.note;
+  chart.shows += drawn.note + LeftOutNote(drawn.Of(used));
   for (const std::size_t i : drawn.indices) {
     const PoseCheck& pose = poses[i];
     position.push_back(kMilli * pose.smallest_position);
@@ -133,6 +134,7 @@ Chart SmallestChart(const std::vector<PoseCheck>& poses) {
   chart.data =
       Json::array({DotTrace("position, mm", drawn.order, position, drawn.labels, false, 1),
                    DotTrace("orientation, mrad", drawn.order, orientation, drawn.labels, true, 1)});
+  for (Json& trace : chart.data) MarkLeftOut(drawn.Of(used), &trace);
   chart.layout = {
       {"height", 340}, {"xaxis", OpenAxis("order of visit")}, {"yaxis", Axis("mm and mrad", true)}};
   return chart;

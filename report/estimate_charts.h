@@ -15,9 +15,9 @@ namespace hexcal {
 Chart ConvergenceChart(const std::vector<IterationRecord>& iterations, const std::string& solver);
 
 // Each pose as the others predict it, in squared sigmas, and the limit of 95 %.
-Chart HeldOutChart(const std::vector<PoseCheck>& poses);
+Chart HeldOutChart(const std::vector<PoseCheck>& poses, const std::vector<bool>& used);
 
 // How large an error of each pose would have to be to be found.
-Chart SmallestChart(const std::vector<PoseCheck>& poses);
+Chart SmallestChart(const std::vector<PoseCheck>& poses, const std::vector<bool>& used);
 
 }  // namespace hexcal

@@ -24,7 +24,7 @@ Chart LegLengthChart(const PoseResiduals& residuals) {
       "by how much each leg would have to be longer to explain the difference (mm, up), against "
       "its reported length (mm, to the right){}.{}",
       residuals.before ? ", before and after" : "",
-      drawn.note);
+      drawn.note + LeftOutNote(drawn.Of(residuals.used)));
   chart.good = fmt::format(
       "points about zero{}. A level off zero is an offset, a slope a gain, a bend a nonlinearity, "
       "a wave a screw or encoder; one leg alone names the leg.",
@@ -38,6 +38,7 @@ Chart LegLengthChart(const PoseResiduals& residuals) {
       for (const std::size_t i : drawn.indices) values.push_back(kMilli * legs[i][leg]);
       Json trace = DotTrace(name, length, values, drawn.labels, is_before, leg + 1);
       if (!residuals.before) trace["showlegend"] = false;
+      MarkLeftOut(drawn.Of(residuals.used), &trace);
       chart.data.push_back(trace);
     };
     if (residuals.before) add("before", residuals.before->legs, true);

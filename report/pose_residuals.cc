@@ -33,10 +33,17 @@ std::vector<double> TimesOf(const Dataset& dataset, const std::vector<std::strin
 
 }  // namespace
 
+std::vector<bool> UsedIn(const Estimate& estimate) {
+  std::vector<bool> used;
+  for (const PoseResult& pose : estimate.poses) used.push_back(pose.weight > 0.0);
+  return used;
+}
+
 PoseResiduals ResidualsOf(const Dataset& dataset,
                           const Observations& observations,
                           const Estimate& estimate) {
   PoseResiduals residuals;
+  residuals.used = UsedIn(estimate);
   for (const PoseResult& pose : estimate.poses) {
     residuals.labels.push_back(pose.label);
     residuals.after.error.push_back(pose.residual);
@@ -60,6 +67,9 @@ PoseResiduals ResidualsOf(const Dataset& dataset, const Discovery& discovery) {
   PoseResiduals residuals;
   PoseResiduals::State before;
   const bool has_legs = !discovery.poses.empty() && discovery.poses.front().leg_lengths.has_value();
+  residuals.used.assign(discovery.poses.size(), true);
+  if (discovery.estimate.poses.size() == discovery.poses.size())
+    residuals.used = UsedIn(discovery.estimate);
   for (const PoseGap& pose : discovery.poses) {
     residuals.labels.push_back(pose.label);
     before.error.push_back(pose.before), residuals.after.error.push_back(pose.after);

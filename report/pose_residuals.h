@@ -19,12 +19,16 @@ struct PoseResiduals {
     std::vector<Vector6d> legs;      // by how much legs would have to be longer, m; or empty
   };
   std::vector<std::string> labels;
+  std::vector<bool> used;             // false: without a weight in the fit
   std::vector<double> times;          // s; empty where none were recorded
   std::vector<Vector6d> coordinates;  // of the reported poses, Eq. (2), m and rad; or empty
   State after;
   std::optional<State> before;        // with what discover started from, where it found effects
   std::vector<Vector6d> leg_lengths;  // of the reported poses, m; empty where no legs are known
 };
+
+// Of each pose: whether it has a weight in the fit.
+std::vector<bool> UsedIn(const Estimate& estimate);
 
 // observations: of the dataset, those that the estimate is of.
 PoseResiduals ResidualsOf(const Dataset& dataset,

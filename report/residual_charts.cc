@@ -66,6 +66,7 @@ void AddPanels(const PoseResiduals& residuals,
       for (const std::size_t i : drawn.indices) values.push_back(kMilli * errors[i][k]);
       Json trace = DotTrace(name, places, values, drawn.labels, is_before, panel);
       if (!residuals.before) trace["showlegend"] = false;
+      MarkLeftOut(drawn.Of(residuals.used), &trace);
       chart->data.push_back(trace);
     };
     if (residuals.before) add("before", residuals.before->error, true);
@@ -115,7 +116,7 @@ Chart AxesChart(const PoseResiduals& residuals, const Abscissa& against, const Q
       quantity.unit,
       against.words,
       residuals.before ? ", before and after what was found" : "",
-      drawn.note);
+      drawn.note + LeftOutNote(drawn.Of(residuals.used)));
   chart.good = fmt::format(
       "a structureless band about zero{}; waves, {}, or single far points mean that {}.",
       residuals.before ? " after" : "",
@@ -137,6 +138,12 @@ DrawnPoses::DrawnPoses(const std::vector<std::string>& all) {
     labels.push_back(EscapeLabel(all[i]));
   }
   if (stride > 1) note = fmt::format(" One pose in {} is drawn.", stride);
+}
+
+std::vector<bool> DrawnPoses::Of(const std::vector<bool>& all) const {
+  std::vector<bool> drawn;
+  for (const std::size_t i : indices) drawn.push_back(all[i]);
+  return drawn;
 }
 
 std::vector<Chart> ResidualCharts(const PoseResiduals& residuals) {

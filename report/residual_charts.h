@@ -16,6 +16,7 @@ std::vector<Chart> ResidualCharts(const PoseResiduals& residuals);
 // Those poses that are drawn of so many, and a sentence that says it where some are not.
 struct DrawnPoses {
   explicit DrawnPoses(const std::vector<std::string>& labels);
+  std::vector<bool> Of(const std::vector<bool>& all) const;
   std::vector<std::size_t> indices;
   nlohmann::ordered_json order = nlohmann::ordered_json::array();
   nlohmann::ordered_json labels = nlohmann::ordered_json::array();

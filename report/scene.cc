@@ -91,6 +91,12 @@ Json Ellipsoid(const Scene& scene, double factor) {
   return trace;
 }
 
+std::vector<bool> UsedOf(const Scene& scene) {
+  std::vector<bool> used;
+  for (const Scene::Arrow& arrow : scene.arrows) used.push_back(arrow.used);
+  return used;
+}
+
 HtmlTable ArrowTable(const Scene& scene) {
   HtmlTable table = {{{"pose"}, {"x, mm", true}, {"y, mm", true}, {"z, mm", true}}, {}};
   const bool has_before = !scene.arrows.empty() && scene.arrows.front().before.has_value();
@@ -142,7 +148,9 @@ Scene MakeScene(const Dataset& dataset,
     scene.arrows.push_back(
         {o.label,
          predicted.translation,
-         predicted.rotation * Eigen::Vector3d(estimate.poses[i].residual.head<3>())});
+         predicted.rotation * Eigen::Vector3d(estimate.poses[i].residual.head<3>()),
+         {},
+         estimate.poses[i].weight > 0.0});
   }
   const Eigen::Matrix<double, 3, 12> j =
       TargetJacobian(mounts, shown.base_from_platform, Eigen::Vector3d::Zero());
@@ -193,6 +201,7 @@ Chart SceneChart(const Scene& scene) {
                                  "with 95 %",
                                  ellipsoid)
                    : "");
+  chart.shows += LeftOutNote(UsedOf(scene));
   chart.good =
       "arrows in all directions. Neighbours that point the same way mean that the model misses "
       "something; a long, thin ellipsoid says along which direction the poses tell least.";
@@ -221,6 +230,7 @@ Chart SceneChart(const Scene& scene) {
   }
   Json trace = SpaceTrace("poses, as predicted", "markers", places, 0, "@after");
   trace["text"] = labels, trace["hoverinfo"] = "text", trace["marker"]["size"] = 2;
+  MarkLeftOut(UsedOf(scene), &trace, "x");
   chart.data.push_back(trace);
   if (has_before)
     chart.data.push_back(

@@ -22,6 +22,7 @@ struct Scene {
     std::string label;
     Eigen::Vector3d from, along;                 // the tool as predicted, and measured minus that
     std::optional<Eigen::Vector3d> before = {};  // with what discover started from
+    bool used = true;                            // has a weight in the fit
   };
   std::vector<Arrow> arrows;                             // of every pose
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  // of the tool there, by the calibration

@@ -19,6 +19,14 @@ constexpr int kLevels = 3;
 // The part of a range by which the calibration's poses may miss its ends.
 constexpr double kMargin = 0.05;
 
+constexpr const char* kAxes[6] = {"x", "y", "z", "rx", "ry", "rz"};
+constexpr const char* kUnits[2] = {" mm", "°"};
+
+// In mm and degrees, as places are stated; 0.0 makes no -0 of a rounding error.
+double Shown(double value, int number) {
+  return std::round(1e6 * (number < 3 ? 1e3 * value : value / kDegree)) / 1e6 + 0.0;
+}
+
 std::array<std::array<double, 2>, 6> BoxOf(const Observations& observations) {
   std::array<std::array<double, 2>, 6> box;
   box.fill({std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
@@ -37,18 +45,24 @@ Vector6d Workspace::Centre() const {
   return centre;
 }
 
+bool Workspace::IsMeasured(int number) const {
+  const auto& [low, high] = box[number];
+  const double margin = kMargin * (high - low);
+  return measured[number][0] <= low + margin && measured[number][1] >= high - margin;
+}
+
+bool Workspace::IsMeasured() const {
+  for (int i = 0; i < 6; ++i)
+    if (!IsMeasured(i)) return false;
+  return true;
+}
+
 Workspace MakeWorkspace(const std::optional<std::array<std::array<double, 2>, 6>>& stated,
                         const Observations& observations) {
   Workspace workspace;
-  const auto measured = BoxOf(observations);
-  workspace.box = stated.value_or(measured);
+  workspace.measured = BoxOf(observations);
+  workspace.box = stated.value_or(workspace.measured);
   workspace.is_stated = stated.has_value();
-  for (int i = 0; i < 6; ++i) {
-    const auto& [low, high] = workspace.box[i];
-    const double margin = kMargin * (high - low);
-    workspace.is_measured =
-        workspace.is_measured && measured[i][0] <= low + margin && measured[i][1] >= high - margin;
-  }
   return workspace;
 }
 
@@ -98,19 +112,25 @@ std::vector<Place> PosesOf(const Observations& observations) {
   return places;
 }
 
+std::string BeyondPoses(const Workspace& workspace) {
+  std::string words;
+  for (int i = 0; i < 6; ++i)
+    if (!workspace.IsMeasured(i))
+      words += fmt::format("{}{} ({:.4g} to {:.4g}{} measured)",
+                           words.empty() ? "" : ", ",
+                           kAxes[i],
+                           Shown(workspace.measured[i][0], i),
+                           Shown(workspace.measured[i][1], i),
+                           kUnits[i / 3]);
+  return words;
+}
+
 std::string WordsOf(const Place& place) {
-  constexpr const char* kAxes[6] = {"x", "y", "z", "rx", "ry", "rz"};
   const Vector6d y = VectorFromPose(place.base_from_platform);
   std::string words = place.label.empty() ? "" : fmt::format("pose {}: ", place.label);
-  // In mm and degrees, as places are stated; 0.0 makes no -0 of a rounding error.
-  for (int i = 0; i < 6; ++i) {
-    const double value = i < 3 ? 1e3 * y[i] : y[i] / kDegree;
-    words += fmt::format("{}{} {:.4g}{}",
-                         i == 0 ? "" : ", ",
-                         kAxes[i],
-                         std::round(1e6 * value) / 1e6 + 0.0,
-                         i < 3 ? " mm" : "°");
-  }
+  for (int i = 0; i < 6; ++i)
+    words +=
+        fmt::format("{}{} {:.4g}{}", i == 0 ? "" : ", ", kAxes[i], Shown(y[i], i), kUnits[i / 3]);
   return words;
 }
 

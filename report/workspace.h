@@ -14,10 +14,13 @@ namespace hexcal {
 // Where accuracy is judged: ranges of the six numbers of Eq. (2) of T_A^B, m and rad.
 struct Workspace {
   std::array<std::array<double, 2>, 6> box{};
-  bool is_stated = false;   // else what the calibration's poses span
-  bool is_measured = true;  // the poses reach to its ends, but for a twentieth of its width
+  std::array<std::array<double, 2>, 6> measured{};  // what the calibration's poses span
+  bool is_stated = false;                           // else it is what they span
 
   Vector6d Centre() const;
+  // The poses reach to the ends of this number's range, but for a twentieth of its width.
+  bool IsMeasured(int number) const;
+  bool IsMeasured() const;
 };
 
 // A place in it.
@@ -41,7 +44,11 @@ std::vector<Place> PosesOf(const Observations& observations);
 // Whether the legs reach it; true where nothing is known of them.
 bool IsReached(const Dataset& dataset, const Pose3d& base_from_platform);
 
-// "x 10 mm, y -20 mm, z 230 mm, rx 0 mrad, ry 140 mrad, rz 140 mrad"
+// "x (-14.2 to 13.9 mm measured), rz (-3 to 3° measured)": where it goes beyond all poses; empty
+// where it does not.
+std::string BeyondPoses(const Workspace& workspace);
+
+// "x 10 mm, y -20 mm, z 230 mm, rx 0°, ry 8°, rz 8°"
 std::string WordsOf(const Place& place);
 
 }  // namespace hexcal

@@ -10,6 +10,7 @@
 namespace hexcal {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -49,6 +50,21 @@ TEST_F(AuditHtmlTest, HasItsNumberAtTheFootOfPrintedPages) {
   const std::string style = page.substr(at, page.find("</style>", at) - at);
   EXPECT_THAT(style, HasSubstr("report 0123456789ab\""));
   EXPECT_THAT(page.substr(0, at), HasSubstr(EscapeHtml(PolicyHash(style))));
+}
+
+// Of several requirements each is named with its own verdict; one alone needs no name.
+TEST_F(AuditHtmlTest, TheVerdictNamesEachOfSeveralRequirements) {
+  const auto box = [](const Audit& some) {
+    const std::string page = AuditHtml({}, {}, some, "{}");
+    const std::size_t at = page.find("id=\"verdict\"");
+    return page.substr(at, page.find("</p>", at) - at);
+  };
+  EXPECT_THAT(box(*audit), Not(HasSubstr("drilling")));
+  Audit two = *audit;
+  two.decisions.push_back(two.decisions[0]);
+  two.decisions[1].requirement.name = "milling";
+  two.decisions[1].compliance = Compliance::kFail;
+  EXPECT_THAT(box(two), AllOf(HasSubstr("drilling (PASS): "), HasSubstr("milling (FAIL): ")));
 }
 
 TEST_F(AuditHtmlTest, AnglesOfTheWorkspaceAreInDegreesToo) {

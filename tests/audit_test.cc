@@ -18,8 +18,10 @@
 namespace hexcal {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 class AuditTest : public ::testing::Test {
  protected:
@@ -133,6 +135,25 @@ TEST_F(AuditTest, BudgetHoldsTheRobotsOwnError) {
   EXPECT_TRUE(with.points[0].check->agrees);
 }
 
+// What no pose has seen is a stated reservation of a verdict about the workspace; it decides
+// nothing, and has no say about the poses themselves.
+TEST_F(AuditTest, AVerdictSaysWhereItsWorkspaceGoesBeyondThePoses) {
+  EXPECT_THAT(Make(5e-4).decisions[0].reason, Not(HasSubstr("no pose was measured")));
+  Requirements requirements = testing::ExampleRequirements();
+  (*requirements.workspace)[0] = {-0.03, 0.02};
+  requirements.requirements.push_back(requirements.requirements[0]);
+  requirements.requirements[1].over = Requirement::Places::kPoses;
+  const Audit audit = MakeAudit(example->Input(requirements));
+  EXPECT_FALSE(audit.workspace.IsMeasured());
+  EXPECT_FALSE(audit.workspace.IsMeasured(0));
+  EXPECT_TRUE(audit.workspace.IsMeasured(1));
+  EXPECT_EQ(audit.decisions[0].compliance, Compliance::kPass);
+  EXPECT_THAT(audit.decisions[0].reason,
+              AllOf(HasSubstr("no pose was measured at the ends of the workspace in x ("),
+                    Not(HasSubstr("y ("))));
+  EXPECT_THAT(audit.decisions[1].reason, Not(HasSubstr("no pose was measured")));
+}
+
 TEST_F(AuditTest, WithoutARequirementNothingIsDecided) {
   const Audit audit = MakeAudit(example->Input(std::nullopt));
   EXPECT_EQ(audit.compliance, Compliance::kNotAsked);
@@ -140,7 +161,7 @@ TEST_F(AuditTest, WithoutARequirementNothingIsDecided) {
   ASSERT_EQ(audit.points.size(), 1u);
   EXPECT_EQ(audit.points[0].point.name, "origin of frame T");
   EXPECT_FALSE(audit.workspace.is_stated);
-  EXPECT_TRUE(audit.workspace.is_measured);
+  EXPECT_TRUE(audit.workspace.IsMeasured());
 }
 
 // A clean simulation: what is held out is as noise explains.

@@ -29,6 +29,7 @@ TEST(CoordinateCharts, ShowWhatFollowsACoordinate) {
     pose << 0.01 * (i % 2), 0.0, 0.2 + 0.01 * (i % 3), 0.0, 0.0, 0.1 * i;
     error[1] = 2e-3 * i;
     residuals.labels.push_back(std::to_string(i));
+    residuals.used.push_back(true);
     residuals.coordinates.push_back(pose);
     residuals.after.error.push_back(error);
   }
@@ -45,6 +46,22 @@ TEST(CoordinateCharts, ShowWhatFollowsACoordinate) {
   EXPECT_EQ(position.table.rows[1][2], "–");  // y never moves
   EXPECT_EQ(charts[1].table.rows[5][1], "–");
   EXPECT_TRUE(CoordinateCharts({}).empty());
+}
+
+// A pose that was left out is drawn, but in no correlation.
+TEST(CoordinateCharts, HaveNoPoseThatWasLeftOutInTheirNumbers) {
+  PoseResiduals residuals;
+  for (int i = 0; i < 6; ++i) {
+    Vector6d pose = Vector6d::Zero(), error = Vector6d::Zero();
+    pose[0] = 0.01 * i, error[0] = i == 5 ? -1.0 : 1e-4 * i;
+    residuals.labels.push_back(std::to_string(i));
+    residuals.used.push_back(i != 5);
+    residuals.coordinates.push_back(pose);
+    residuals.after.error.push_back(error);
+  }
+  const Chart chart = CoordinateCharts(residuals)[0];
+  EXPECT_EQ(chart.data[0]["x"].size(), 6u);
+  EXPECT_EQ(chart.table.rows[0][1], "1.00");
 }
 
 // What the pictures are drawn from: of a real calibration, pose by pose.

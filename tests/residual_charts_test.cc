@@ -11,9 +11,11 @@
 #include "estimator/autocorrelation.h"
 #include "estimator/normal_plot.h"
 #include "model/hexapod.h"
+#include "report/coordinate_charts.h"
 #include "report/distribution_charts.h"
 #include "report/estimate_charts.h"
 #include "report/leg_charts.h"
+#include "report/scene.h"
 #include "testing/audits.h"
 #include "testing/matchers.h"
 
@@ -92,6 +94,41 @@ TEST(ResidualCharts, ShowEveryAxisInItsUnitBeforeAndAfter) {
   ASSERT_EQ(alone.size(), 2u);
   EXPECT_EQ(alone[0].data.size(), 3u);
   EXPECT_THAT(alone[0].shows, Not(HasSubstr("before")));
+}
+
+// A pose that the fit left out has another sign than its neighbours wherever poses are dots, and
+// the words say which. Where all were used nothing is said.
+TEST(Pictures, SetALeftOutPoseApart) {
+  testing::AuditedExample example = Example();
+  const auto all_of = [&example] {
+    const PoseResiduals residuals =
+        ResidualsOf(example.dataset, example.observations, example.estimate);
+    std::vector<PoseCheck> checks(60);
+    std::vector<Chart> all = ResidualCharts(residuals);
+    for (const Chart& chart : CoordinateCharts(residuals)) all.push_back(chart);
+    all.push_back(LegCharts(residuals)[0]);
+    all.push_back(HeldOutChart(checks, residuals.used));
+    all.push_back(SmallestChart(checks, residuals.used));
+    all.push_back(SceneChart(MakeScene(example.dataset, example.observations, example.estimate)));
+    return all;
+  };
+  for (const Chart& chart : all_of()) EXPECT_THAT(chart.shows, Not(HasSubstr("cross")));
+  example.estimate.poses[7].weight = 0.0;
+  const std::vector<Chart> all = all_of();
+  ASSERT_EQ(all.size(), 8u);
+  for (const Chart& chart : all) {
+    EXPECT_THAT(chart.shows, HasSubstr("A cross is of a pose that was left out")) << chart.title;
+    int traces = 0;
+    for (const Json& trace : chart.data) {
+      if (trace["x"].size() != 60u || trace["mode"] != "markers") continue;
+      ++traces;
+      const Json& symbols = trace["marker"]["symbol"];
+      ASSERT_EQ(symbols.size(), 60u) << chart.title;
+      for (std::size_t i = 0; i < 60; ++i)
+        EXPECT_EQ(symbols[i].get<std::string>()[0] == 'x', i == 7) << chart.title;
+    }
+    EXPECT_GT(traces, 0) << chart.title;
+  }
 }
 
 TEST(LegCharts, ShowEveryLegByLengthAndByPose) {
