@@ -128,5 +128,24 @@ TEST(HtmlPage, HoldsTheLibraryOfItsKindOfPictureOnly) {
   EXPECT_NE(page.Html().find(FlatCharts()), std::string::npos);
 }
 
+// On paper nothing can be hovered over, and tables that are folded are not there: it says where.
+TEST(HtmlPage, SaysOnPaperWhatHoldsThere) {
+  HtmlPage page("test", "t", "s");
+  Chart chart;
+  chart.shows = "dots (mm), in order (hover for the pose's name). More.";
+  chart.data = nlohmann::ordered_json::array({{{"x", {1}}, {"y", {2}}}});
+  page.Figure(chart);
+  EXPECT_THAT(
+      page.Html(),
+      HasSubstr("(mm), in order<span class=\"screen\"> (hover for the pose&#39;s name)</span>. "
+                "More."));
+  EXPECT_THAT(page.Html(), Not(HasSubstr("Printed without")));
+  chart.table = {{{"x", true}}, {{"1"}}};
+  page.Figure(chart);
+  const std::string said = FlatCharts().empty() ? "" : "<p class=\"note paper\">Printed without";
+  EXPECT_THAT(page.Html(), HasSubstr(said));
+  EXPECT_THAT(std::string(PageCss()), HasSubstr(".modebar, .screen { display: none; }"));
+}
+
 }  // namespace
 }  // namespace hexcal

@@ -36,9 +36,21 @@ std::string TableHtml(const HtmlTable& table) {
   return html + "</tbody></table></div>\n";
 }
 
+// What one can do with a mouse alone is not for paper: " (hover for ...)", " (a click ...)".
+std::string ForScreenAlone(std::string html) {
+  for (const std::string_view start : {" (hover for ", " (a click "}) {
+    const std::size_t at = html.find(start);
+    const std::size_t end = at == std::string::npos ? at : html.find(')', at);
+    if (end == std::string::npos) continue;
+    html.insert(end + 1, "</span>");
+    html.insert(at, "<span class=\"screen\">");
+  }
+  return html;
+}
+
 std::string Caption(std::string_view shows, std::string_view good) {
   return fmt::format("<figcaption><b>Shows</b> {} <b>Good looks like</b> {}</figcaption>\n",
-                     EscapeHtml(shows),
+                     ForScreenAlone(EscapeHtml(shows)),
                      EscapeHtml(good));
 }
 
@@ -214,6 +226,11 @@ std::string HtmlPage::Html() const {
     html +=
         "<noscript><p class=\"note\">Scripts are off: the numbers of each picture are in the table "
         "below it.</p></noscript>\n";
+  if (body_.find("<details>") != std::string::npos)
+    html +=
+        "<p class=\"note paper\">Printed without the tables of numbers below the pictures: those "
+        "that are opened on the screen are printed too, and the JSON files beside this page have "
+        "them all.</p>\n";
   html += body_;
   if (has_flat_) html += LaterScript("library-2d", FlatCharts());
   if (has_space_) html += LaterScript("library-3d", SpaceCharts());
