@@ -27,13 +27,31 @@ std::vector<StatedPose> StatedPoses(const RecordedBody& robot) {
   return poses;
 }
 
+// Robot inverted, tracker inverted, base taken for tool: of the three the data cannot tell which it
+// is, only that it is one.
+std::string AlsoPossible(const Conventions& found, const Dataset& dataset) {
+  const bool turns_robot = found.best.robot.is_inverse != found.stated.robot.is_inverse;
+  if (turns_robot == (found.best.measured != 0)) return "";
+  const bool by_poses = dataset.measurement->kind == Measurement::Kind::kPoses;
+  std::vector<std::string_view> others;
+  if (!turns_robot) others.push_back("with the robot's inverted (--robot_inverse)");
+  if (turns_robot && by_poses) others.push_back("with the tracker's inverted (--measured_inverse)");
+  others.push_back("with base and tool interchanged (--base, --tool)");
+  return fmt::format(
+      "; as well {}: which it is no data can tell, and base and tool of the wrong "
+      "one are wrong",
+      fmt::join(others, " and "));
+}
+
 // What to change, each with its flag where there is one.
-std::string Words(const Conventions& found, const AssembleOptions& options) {
+std::string Words(const Conventions& found, const AssembleOptions& options, bool by_map) {
   const RobotReading &stated = found.stated.robot, &best = found.best.robot;
   std::vector<std::string> words;
   if (best.order != stated.order)
-    words.push_back(fmt::format(
-        "the robot's angles in the order {} (--robot_rotation={})", best.order, best.order));
+    words.push_back(fmt::format("the robot's angles in the order {} ({}{})",
+                                best.order,
+                                by_map ? "in the column map, order: " : "--robot_rotation=",
+                                best.order));
   if (best.is_transposed) words.push_back("the robot's rotations the other way round (transposed)");
   if (best.quaternion_shift != 0)
     words.push_back(fmt::format("the scalar of the robot's quaternions {}",
@@ -61,6 +79,7 @@ std::string Words(const Conventions& found, const AssembleOptions& options) {
 std::optional<std::size_t> CheckConventions(const Recording& robot,
                                             const std::vector<Recording>& tracker,
                                             const AssembleOptions& options,
+                                            bool robot_by_map,
                                             const Dataset& dataset) {
   if (!dataset.measurement) return std::nullopt;
   std::vector<Measured> measured = {MeasuredPoses(dataset)};
@@ -79,13 +98,14 @@ std::optional<std::size_t> CheckConventions(const Recording& robot,
   if (found->gain < kClearGain) return found->tried - 1;
   PrintWarning(
       fmt::format("{}: base and tool leave {:.3g} mm and {:.3g} mrad with the conventions "
-                  "as stated, but {:.3g} mm and {:.3g} mrad with {}",
+                  "as stated, but {:.3g} mm and {:.3g} mrad with {}{}",
                   dataset.name,
                   1e3 * found->stated.rms_position,
                   1e3 * found->stated.rms_orientation,
                   1e3 * found->best.rms_position,
                   1e3 * found->best.rms_orientation,
-                  Words(*found, options)));
+                  Words(*found, options, robot_by_map),
+                  AlsoPossible(*found, dataset)));
   return std::nullopt;
 }
 

@@ -57,6 +57,10 @@ ImportOptions TrackerOptions() {
 
 ImportOptions RobotOptions() {
   ImportOptions options;
+  for (const std::string_view flag : {"robot_rotation", "robot_columns"})
+    if (!FLAGS_robot_map.empty() && Given(flag))
+      throw UsageError(fmt::format(
+          "import: found --{} beside --robot_map, expected one of them: the map says it", flag));
   options.rotation_order = FLAGS_robot_rotation;
   options.map = FLAGS_robot_map;
   if (!Given("robot_columns")) return options;

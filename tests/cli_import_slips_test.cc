@@ -16,6 +16,7 @@ using ::hexcal::testing::ProgramResult;
 using ::hexcal::testing::RunHexcal;
 using ::hexcal::testing::TemporaryFolder;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string kTracker = HEXCAL_EXAMPLES "/ndi-and-pi/tracker.csv";
 const std::string kRobot = "--robot=" HEXCAL_EXAMPLES "/ndi-and-pi/hexapod.dat";
@@ -47,6 +48,43 @@ TEST_F(CliImportSlips, KeepsADatasetThatWasWorkedOn) {
   EXPECT_THAT(refused.err, HasSubstr("mine/dataset.yaml: this file or a table of it was changed"));
   EXPECT_EQ(folder.Read("mine/dataset.yaml"), text);
   EXPECT_EQ(ImportRightly({"--force"}).status, 0);
+}
+
+TEST_F(CliImportSlips, RefusesOneBodyForBaseAndTool) {
+  const ProgramResult same = Import({"--base=0x0B", "--tool=Platform frame"});
+  EXPECT_EQ(same.status, 3);
+  EXPECT_THAT(same.err, HasSubstr("which are the same or share a marker"));
+}
+
+// The data cannot tell these from each other; who takes the first for true gets a wrong base.
+TEST_F(CliImportSlips, NamesAllInversionsThatFitAlike) {
+  const ProgramResult interchanged = Import({"--base=0x0B", "--tool=0x0A"});
+  EXPECT_EQ(interchanged.status, 0);
+  EXPECT_THAT(interchanged.err,
+              HasSubstr("the robot's poses inverted (--robot_inverse); as well with base and tool "
+                        "interchanged (--base, --tool): which it is no data can tell"));
+  const ProgramResult poses = Import({"--base=0x0B", "--tool=0x0A", "--kind=poses"});
+  EXPECT_THAT(poses.err, HasSubstr("interchanged (--base, --tool): which it is no data can tell"));
+  EXPECT_THAT(poses.err, HasSubstr("(--robot_inverse)"));
+  EXPECT_THAT(poses.err, HasSubstr("(--measured_inverse)"));
+  // No word of it where the angles are at fault.
+  const ProgramResult order = ImportRightly({"--robot_rotation=zyx"});
+  EXPECT_THAT(order.err, HasSubstr("(--robot_rotation=xyz)"));
+  EXPECT_THAT(order.err, Not(HasSubstr("no data can tell")));
+}
+
+// A flag that the map makes useless is not taken in silence, nor advised.
+TEST_F(CliImportSlips, LeavesTheOrderOfAnglesToTheColumnMap) {
+  folder.Write("map.yaml",
+               "format: hexcal/columns/1\ndelimiter: tab\nheader: false\ncomment: \"#\"\n"
+               "units: {length: mm, angle: deg}\n"
+               "bodies: {robot: {position: [1, 2, 3], angles: [4, 5, 6], order: zyx}}\n");
+  const ProgramResult wrong = ImportRightly({"--robot_map=map.yaml"});
+  EXPECT_EQ(wrong.status, 0) << wrong.err;
+  EXPECT_THAT(wrong.err, HasSubstr("in the order xyz (in the column map, order: xyz)"));
+  const ProgramResult refused = ImportRightly({"--robot_map=map.yaml", "--robot_rotation=zyx"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("found --robot_rotation beside --robot_map"));
 }
 
 }  // namespace

@@ -166,12 +166,29 @@ void FillMarkers(const std::vector<Recording>& tracker,
     measurement.frame_labels.push_back(std::to_string(frame + 1));
 }
 
+// What is on the base cannot be on the platform.
+void RefuseShared(const Recording& recording, const TrackedSide& base, const TrackedSide& tool) {
+  const auto is_of_base = [&base](int marker) {
+    return std::find(base.markers.begin(), base.markers.end(), marker) != base.markers.end();
+  };
+  const bool is_shared = (base.body != nullptr && base.body == tool.body) ||
+                         std::any_of(tool.markers.begin(), tool.markers.end(), is_of_base);
+  if (is_shared)
+    throw InputError(FileLocation(recording.path),
+                     fmt::format("{} as --base and {} as --tool, which are the same or share a "
+                                 "marker",
+                                 Quoted(base.name),
+                                 Quoted(tool.name)),
+                     "one body on the base, another on the platform");
+}
+
 // Bodies of the same names in all files, with as many markers.
 Sides ChooseSides(const std::vector<Recording>& tracker, const AssembleOptions& options) {
   Sides sides;
   for (const Recording& recording : tracker) {
     sides.push_back(
         {ChooseSide(recording, options.base, true), ChooseSide(recording, options.tool, false)});
+    RefuseShared(recording, sides.back()[0], sides.back()[1]);
     for (std::size_t body = 0; body < 2; ++body) {
       const TrackedSide &first = sides.front()[body], &here = sides.back()[body];
       if (here.markers.size() != first.markers.size() ||

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "measurement/checked_values.h"
+#include "measurement/importers/shape_misfit.h"
 #include "measurement/labels.h"
 
 namespace hexcal {
@@ -131,6 +132,10 @@ BodyShape MakeBodyShape(const std::vector<Recording>& tracker,
     throw InputError(FileLocation(stated ? stated->path : tracker.front().path),
                      fmt::format("the markers of {} on one line", Quoted(first.name)),
                      "three that are not");
+  if (!shape.warnings.empty()) return shape;
+  const std::string odd =
+      OddShape(tracker, sides, shape.body.p_in_body, {stated ? stated->path : ""});
+  if (!odd.empty()) shape.warnings.push_back(odd);
   return shape;
 }
 
