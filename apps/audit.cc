@@ -3,13 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <memory>
 #include <optional>
 
-#include "apps/audit_repetition.h"
-#include "apps/audit_screening.h"
+#include "apps/audit_fit.h"
 #include "apps/calibrate_options.h"
 #include "apps/dataset_files.h"
 #include "apps/estimate_mounts.h"
@@ -20,10 +17,7 @@
 #include "apps/message.h"
 #include "apps/output_folder.h"
 #include "apps/record_of.h"
-#include "apps/stage_bars.h"
 #include "apps/usage_error.h"
-#include "estimator/calibrate_grown.h"
-#include "estimator/grown_repeat.h"
 #include "report/audit_html.h"
 #include "report/audit_json.h"
 #include "report/audit_table.h"
@@ -35,28 +29,6 @@ namespace hexcal {
 namespace {
 
 constexpr std::string_view kAuditMark = R"("format": "hexcal/audit/)";
-// Repetitions of a joint fit take as much longer; they are as many fewer.
-constexpr int kPlainFitsInAJointOne = 20;
-constexpr int kFewestJointFits = 100;
-constexpr int kMostJointRounds = 4;
-
-CompareOptions ComparisonOf(const Dataset& dataset, const CalibrateOptions& options) {
-  CompareOptions compare;
-  compare.calibrate = options;
-  compare.calibrate.loss = {};
-  compare.calibrate.covariance = CovarianceKind::kModel;
-  compare.folds = FLAGS_folds;
-  compare.draws = FLAGS_draws;
-  compare.keep_draws = true;
-  compare.starts = 0;
-  compare.seed = static_cast<std::uint64_t>(FLAGS_seed);
-  compare.threads = ThreadsFor(FLAGS_threads);
-  if (dataset.measurement->kind == Measurement::Kind::kMarkers)
-    compare.markers = [&dataset](const Observations& some) {
-      return MakeMarkerObservations(dataset, some);
-    };
-  return compare;
-}
 
 // Everything but the settings that say where results go and how they are shown.
 bool Matters(std::string_view setting) {
@@ -96,87 +68,6 @@ std::vector<std::string> AllInputs(const Dataset& dataset,
   return files;
 }
 
-Audit AuditDataset(const Dataset& dataset,
-                   const std::optional<Requirements>& requirements,
-                   const std::optional<EarlierResult>& earlier) {
-  CalibrateOptions options = CalibrateOptionsFromFlags();
-  const bool by_markers = IsByMarkers(dataset, options);
-  options.threads = ThreadsFor(FLAGS_threads);
-  const Observations observations = MakeObservations(dataset);
-  StageBars bars(FLAGS_quiet);
-  Estimate estimate = EstimateMounts(dataset, observations, options);
-  CompareOptions compare = ComparisonOf(dataset, options);
-  compare.progress = [&bars](std::string_view label, long done, long of) {
-    bars.Update(label, done, of);
-  };
-  ResultHeader header = HeaderOf(dataset.name, options, by_markers);
-  AuditRepetition repetition(dataset, observations, options, header, estimate);
-  compare.repeat = [&](const MonteCarloOptions& repeat) { return repetition.Run(repeat); };
-  Comparison comparison = Compare(observations, InitialOf(dataset, options), compare);
-  const NoiseLevels levels =
-      LevelsOf(observations, options.noise, by_markers ? comparison.reference : estimate);
-  header.readings = ReadingsOf(dataset);
-  AuditInput input = {dataset,
-                      observations,
-                      levels,
-                      std::move(header),
-                      std::move(estimate),
-                      std::move(comparison),
-                      requirements,
-                      earlier,
-                      compare.seed};
-  input.repeated = repetition.repeated();
-  input.threads = options.threads;
-  ScreenFor(std::nullopt, &bars, &input);
-  return MakeAudit(std::move(input));
-}
-
-// The same with the effects of a model, jointly; methods are compared by poses without effects.
-Audit AuditGrown(const Dataset& dataset,
-                 const Machine& model,
-                 const std::optional<Requirements>& requirements,
-                 Machine* machine) {
-  CalibrateOptions options = CalibrateOptionsFromFlags();
-  options.threads = ThreadsFor(FLAGS_threads);
-  StageBars bars(FLAGS_quiet);
-  const std::optional<BaseAndTool> initial = InitialOf(dataset, options);
-  GrownCalibration grown = CalibrateGrown(dataset, model, options);
-  *machine = grown.machine;
-  const GrownSolution& solution = *grown.solution;
-  if (dataset.measurement->kind == Measurement::Kind::kMarkers)
-    PrintWarning(dataset.name +
-                 ": with the effects of a --model the fit is by poses, made of the markers' "
-                 "readings; it is not by the readings themselves, as without a model");
-  CompareOptions compare = ComparisonOf(dataset, options);
-  compare.markers = {};
-  compare.progress = [&bars](std::string_view label, long done, long of) {
-    bars.Update(label, done, of);
-  };
-  compare.repeat = [&](MonteCarloOptions repeat) {
-    repeat.draws = std::max(repeat.draws / kPlainFitsInAJointOne, kFewestJointFits);
-    repeat.most_rounds = kMostJointRounds;
-    return CheckGrownPropagation(solution, grown.estimate, repeat);
-  };
-  Comparison comparison = Compare(solution.cleaned, initial, compare);
-  const NoiseLevels levels = LevelsOf(solution.cleaned, options.noise, comparison.reference);
-  auto target =
-      grown.estimate.converged ? std::make_shared<const GrownTarget>(grown.solution) : nullptr;
-  ResultHeader header = HeaderOf(dataset.name, options, false);
-  header.readings = ReadingsOf(dataset);
-  AuditInput input = {dataset,
-                      solution.observations,
-                      levels,
-                      std::move(header),
-                      std::move(grown.estimate),
-                      std::move(comparison),
-                      requirements,
-                      std::nullopt,
-                      compare.seed,
-                      std::move(target)};
-  ScreenFor(model, &bars, &input);
-  return MakeAudit(std::move(input));
-}
-
 // The effects to audit with; nothing without a --model, or where that has none.
 std::optional<Machine> OpenModel() {
   if (FLAGS_model.empty()) return std::nullopt;
@@ -210,10 +101,7 @@ int RunAudit(const std::vector<std::string>& files) {
                       AllInputs(dataset, requirements),
                       FLAGS_force);
   CheckHistoryFlag();
-  Machine machine;
-  const Audit audit = model ? AuditGrown(dataset, *model, requirements, &machine)
-                            : AuditDataset(dataset, requirements, earlier);
-  if (!model) machine = MachineOf(dataset, audit.estimate);
+  const auto [audit, machine] = FitAndAudit({dataset, model, requirements, earlier});
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   RunRecord record = RecordOf("audit", dataset, seconds, ThreadsFor(FLAGS_threads));

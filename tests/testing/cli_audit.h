@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "testing/run_program.h"
+#include "testing/temporary_folder.h"
+
+namespace hexcal::testing {
+
+inline const std::string kAudited = std::string(HEXCAL_EXAMPLES) + "/neurobot/";
+
+// hexcal audit of examples/neurobot from outside, in a folder of its own.
+class CliAudit : public ::testing::Test {
+ protected:
+  ProgramResult Audit(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {
+        "audit", kAudited + "dataset.yaml", "--out=out", "--draws=1000", "--folds=2"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return RunHexcal({arguments, folder.Path("")});
+  }
+
+  std::string Read(const std::string& name) const { return folder.Read("out/neurobot/" + name); }
+
+  // The bundled requirement with another limit, mm.
+  std::string WithLimit(const std::string& limit) const {
+    std::string text = Bundled();
+    const std::string part = "limit: 0.5";
+    text.replace(text.find(part), part.size(), "limit: " + limit);
+    return folder.Write("r.yaml", text);
+  }
+
+  static std::string Bundled() {
+    std::ostringstream content;
+    content << std::ifstream(kAudited + "requirement.yaml").rdbuf();
+    return content.str();
+  }
+
+  const std::string bundled = "--requirement=" + kAudited + "requirement.yaml";
+  TemporaryFolder folder;
+};
+
+}  // namespace hexcal::testing
