@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+#include <utility>
+
 #include "apps/dataset_files.h"
 #include "apps/exit_status.h"
 #include "apps/flags.h"
@@ -47,6 +50,20 @@ std::string FrameName(const std::string& name, std::string_view flag) {
 }
 
 FrameNames FramesFromFlags() {
+  const std::vector<std::pair<std::string, std::string_view>> frames = {
+      {FLAGS_world_frame, "world_frame"},
+      {FLAGS_base_frame, "base_frame"},
+      {FLAGS_platform_frame, "platform_frame"},
+      {FLAGS_tool_frame, "tool_frame"}};
+  for (std::size_t a = 0; a < frames.size(); ++a)
+    for (std::size_t b = a + 1; b < frames.size(); ++b)
+      if (frames[a].first == frames[b].first)
+        throw UsageError(
+            fmt::format("export: --{} and --{}: found '{}' twice, expected four names, "
+                        "since a frame is in one place",
+                        frames[a].second,
+                        frames[b].second,
+                        frames[a].first));
   return {FrameName(FLAGS_world_frame, "world_frame"),
           FrameName(FLAGS_base_frame, "base_frame"),
           FrameName(FLAGS_platform_frame, "platform_frame"),

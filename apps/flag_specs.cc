@@ -93,7 +93,7 @@ std::vector<FlagSpec> MakeSpecs() {
       {"map", kFiles, "FILE.yaml", ""},
       {"robot_map", kFiles, "FILE.yaml", ""},
       {"initial", kFiles, "FILE.yaml", ""},
-      {"name", kFiles, "NAME", "that of the folder"},
+      {"name", kFiles, "NAME", "that of the folder, or of the table"},
       {"units",
        kFiles,
        "LENGTH,ANGLE",

@@ -121,7 +121,7 @@ Command PivotCommand() {
       {{"out", true, "DIR", "The results go to DIR/<name>/."},
        {"report"},
        {"units"},
-       {"name", false, {}, "The name of a table's results (default: that of the file)."},
+       {"name", false, {}, "The name of a table's results; a YAML file states its own."},
        {"outliers"},
        {"noise_position"},
        {"noise_orientation"},

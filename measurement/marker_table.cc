@@ -67,9 +67,11 @@ class MarkerRows {
     keys_.push_back({pose, frame, first_of_body + marker, table_.RowLocation().line});
     if (!IsSeen()) return;
     // Braces keep the order of calls, so that the first bad cell is the one that is named.
-    const Eigen::Vector3d p{table_.Number(xyz_[0]), table_.Number(xyz_[1]), table_.Number(xyz_[2])};
+    const Eigen::Vector3d p{ReadLength(table_, xyz_[0], units_),
+                            ReadLength(table_, xyz_[1], units_),
+                            ReadLength(table_, xyz_[2], units_)};
     measurement_.readings.push_back(
-        {pose, PublicFrame(frame), static_cast<BodyId>(body), marker, units_.length * p});
+        {pose, PublicFrame(frame), static_cast<BodyId>(body), marker, p});
   }
 
   int FindPose() {

@@ -122,7 +122,8 @@ PoseColumns::PoseColumns(const TableReader& table,
 Pose3d PoseColumns::ReadPose(const TableReader& table, const Units& units) const {
   // Braces keep the order of calls, so that the first bad cell is the one that is named.
   const auto number = [&](int i) { return table.Number(columns_[i]); };
-  const Eigen::Vector3d xyz = units.length * Eigen::Vector3d{number(0), number(1), number(2)};
+  const auto length = [&](int i) { return ReadLength(table, columns_[i], units); };
+  const Eigen::Vector3d xyz{length(0), length(1), length(2)};
   const Location where = table.CellLocation(columns_[3]);
   if (set_ == Set::kQuaternion)
     return {xyz, CheckedQuaternion({number(3), number(4), number(5), number(6)}, where)};
@@ -143,7 +144,7 @@ std::array<double, kNumLegs> PoseColumns::ReadLegs(const TableReader& table,
                                                    const Units& units) const {
   std::array<double, kNumLegs> lengths;
   for (int leg = 0; leg < kNumLegs; ++leg) {
-    lengths[leg] = units.length * table.Number(columns_[leg]);
+    lengths[leg] = ReadLength(table, columns_[leg], units);
     if (!(lengths[leg] > 0))
       throw InputError(
           table.CellLocation(columns_[leg]),

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <unordered_set>
 
@@ -12,6 +13,8 @@
 
 namespace hexcal {
 namespace {
+
+constexpr double kLongest = 1e6;  // m
 
 namespace fs = std::filesystem;
 
@@ -88,6 +91,16 @@ void CheckColumns(const TableReader& table,
   for (const std::string_view column : required)
     if (seen.count(column) == 0)
       throw InputError(table.HeaderLocation(0), fmt::format("no column '{}'", column), expected);
+}
+
+double ReadLength(const TableReader& table, int column, const Units& units) {
+  const double length = units.length * table.Number(column);
+  if (std::abs(length) <= kLongest) return length;
+  throw InputError(table.CellLocation(column),
+                   fmt::format("{} in column '{}'",
+                               Quoted(table.Text(column)),
+                               table.header()[static_cast<std::size_t>(column)]),
+                   "a length of at most 1000 km (what was not seen is left out)");
 }
 
 }  // namespace hexcal

@@ -252,6 +252,9 @@ TEST_F(CliExport, RefusesWhatItCannotUse) {
   EXPECT_THAT(Export("tum").err, HasSubstr("--dataset=FILE is missing"));
   EXPECT_EQ(Export("ros1", {"--tool_frame=\"/><evil x=\""}).status, 2);
   EXPECT_EQ(Export("ros1", {"--tool_frame=-x"}).status, 2);
+  const ProgramResult twice = Export("ros1", {"--base_frame=world"});
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("--world_frame and --base_frame: found 'world' twice"));
   EXPECT_EQ(RunHexcal({{"export", "ros1", kDataset, "--out=ex"}, folder.Path("")}).status, 3);
   const std::string path = result_path;
   Json broken = result;
