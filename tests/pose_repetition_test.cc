@@ -70,6 +70,25 @@ TEST(PoseRepetition, RepeatsTheLossWithItsOwnEfficiency) {
   EXPECT_GT(VarianceUnderLoss({LossKind::kTukey, 3.5}), 1.5);
 }
 
+// Draw by draw the fit ends where the linear estimator does, the tracker's own common error in
+// both: a spread alone would not show a sign.
+TEST(PoseRepetition, ADrawMovesTheFitAsTheLinearEstimatorSays) {
+  auto rng = SeededByTest();
+  Observations observations = Measured(rng, 20);
+  observations.tracker_from_world = Pose3d{};
+  observations.tracker_from_world_covariance = kNoise;
+  const NoiseLevels levels;
+  Estimate estimate;
+  estimate.mounts = Calibrate(Measured(rng, 20), {}, {}).mounts;
+  const PoseRepetition repetition(observations, levels, estimate, {});
+  const Repetition::Block block = repetition.Run(10, 1, 0);
+  EXPECT_EQ(block.not_converged, 0);
+  ASSERT_GT(block.linear.norm(), 1e-9);
+  for (int k = 0; k < 10; ++k)
+    EXPECT_LT((block.estimator.col(k) - block.linear.col(k)).norm(),
+              1e-2 * block.linear.col(k).norm());
+}
+
 TEST(PoseRepetition, RepeatsThePapersIterationWithItsOwnCovariance) {
   auto rng = SeededByTest();
   const Observations observations = Measured(rng, 30);
