@@ -39,6 +39,10 @@ void List(const Opened& history, const std::string&) {
   for (const StoredRecord& row : history.rows)
     if (FLAGS_dataset.empty() || (row.record && row.record->dataset == FLAGS_dataset))
       rows.push_back(row);
+  if (rows.empty() && !FLAGS_dataset.empty())
+    throw InputError(FileLocation(history.path),
+                     fmt::format("no record of dataset '{}'", FLAGS_dataset),
+                     "some ('hexcal history list' shows what there is)");
   Print(HistoryListJson(history.path, rows, history.check), HistoryListText(rows));
 }
 

@@ -150,6 +150,9 @@ TEST_F(CliHistory, TrendSaysWhichRecordIsOutOfControlAndWhere) {
   // A new chart after a change that is known.
   EXPECT_THAT(Run({"history", "trend", "h.sqlite", "--since=5"}).out, Not(HasSubstr("OUT OF")));
   EXPECT_EQ(Run({"history", "trend", "h.sqlite", "--dataset=none"}).status, 3);
+  const ProgramResult none = Run({"history", "list", "h.sqlite", "--dataset=none"});
+  EXPECT_EQ(none.status, 3);
+  EXPECT_THAT(none.err, HasSubstr("no record of dataset 'none'"));
 }
 
 TEST_F(CliHistory, VerifyFindsAChangedByte) {

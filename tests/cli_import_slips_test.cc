@@ -56,6 +56,15 @@ TEST_F(CliImportSlips, RefusesOneBodyForBaseAndTool) {
   EXPECT_THAT(same.err, HasSubstr("which are the same or share a marker"));
 }
 
+TEST_F(CliImportSlips, SaysThatARobotsFileIsUtf16) {
+  folder.Write("robot.dat", std::string("\xFF\xFE#\0 \0T\0Y\0P\0E\0", 14));
+  const ProgramResult refused =
+      RunHexcal({{"import", "ndi_csv", kTracker, "--robot=robot.dat", "--pair=rows", "--out=mine"},
+                 folder.Path("")});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_THAT(refused.err, HasSubstr("robot.dat:1:1: found UTF-16 text, expected UTF-8 text"));
+}
+
 // The data cannot tell these from each other; who takes the first for true gets a wrong base.
 TEST_F(CliImportSlips, NamesAllInversionsThatFitAlike) {
   const ProgramResult interchanged = Import({"--base=0x0B", "--tool=0x0A"});

@@ -149,6 +149,8 @@ const ImportFormat* FindImportFormat(std::string_view name) {
 
 const ImportFormat* RecogniseFormat(const std::string& path) {
   const std::string beginning = Beginning(path);
+  if (const std::string two = beginning.substr(0, 2); two == "\xFF\xFE" || two == "\xFE\xFF")
+    RefuseBadText(two, {FileLocation(path).file, 1, 1});  // Excel's "Unicode text"
   for (const ImportFormat& format : ImportFormats())
     if (format.recognise != nullptr && format.recognise(beginning)) return &format;
   return nullptr;
