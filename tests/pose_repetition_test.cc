@@ -89,6 +89,24 @@ TEST(PoseRepetition, ADrawMovesTheFitAsTheLinearEstimatorSays) {
               1e-2 * block.linear.col(k).norm());
 }
 
+// Where the noise is so large that the linear estimator is not the fit, its steps end where another
+// solver does: of the same draws under a loss that counts everything.
+TEST(PoseRepetition, ItsLeastSquaresEndWhereTheNonlinearSolverDoes) {
+  auto rng = SeededByTest();
+  const Matrix6d noise = 1e4 * kNoise;
+  const Observations observations = Measured(rng, 20, noise);
+  const NoiseLevels levels;
+  const Estimate estimate = Calibrate(observations, {}, {});
+  RepeatedFit other;
+  other.options.loss = {LossKind::kHuber, 1e6};
+  const Eigen::MatrixXd steps =
+      PoseRepetition(observations, levels, estimate, {}).Run(10, 1, 0).estimator;
+  const Repetition::Block solved =
+      PoseRepetition(observations, levels, estimate, other).Run(10, 1, 0);
+  EXPECT_LT((steps - solved.estimator).norm(), 1e-4 * steps.norm());
+  EXPECT_GT((solved.linear - solved.estimator).norm(), 1e-3 * steps.norm());
+}
+
 TEST(PoseRepetition, RepeatsThePapersIterationWithItsOwnCovariance) {
   auto rng = SeededByTest();
   const Observations observations = Measured(rng, 30);
