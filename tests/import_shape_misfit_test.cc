@@ -30,6 +30,8 @@ class ShapeMisfit : public ::testing::Test {
     std::normal_distribution<double> noise(0.0, 5e-5);
     shape.conservativeResize(3, count);
     tracker.markers.clear();
+    body.poses.clear();
+    side.body = &body;
     side.markers.clear();
     tracker.rows = 30;
     for (int m = 0; m < count; ++m) {
@@ -39,6 +41,7 @@ class ShapeMisfit : public ::testing::Test {
     for (std::size_t row = 0; row < tracker.rows; ++row) {
       const Pose3d pose{testing::UniformVector(random, 1.0),
                         Exp(testing::UniformVector(random, 1))};
+      body.poses.emplace_back(pose);
       for (int m = 0; m < count; ++m) {
         Eigen::Vector3d seen = pose * Eigen::Vector3d(shape.col(m));
         for (double& x : seen) x += noise(random);
@@ -46,12 +49,15 @@ class ShapeMisfit : public ::testing::Test {
       }
     }
   }
-  std::string Odd(const Eigen::Matrix3Xd& stated, const std::string& path = "probe.rig") const {
-    return OddShape({tracker}, {&side}, stated, {path});
+  std::string Odd(const Eigen::Matrix3Xd& stated,
+                  const std::string& path = "probe.rig",
+                  bool inverse = false) const {
+    return OddShape({tracker}, {&side}, stated, {path, inverse});
   }
 
   Eigen::Matrix3Xd shape{3, 4};
   Recording tracker;
+  RecordedBody body;
   TrackedSide side;
 };
 
@@ -89,7 +95,15 @@ TEST_F(ShapeMisfit, SaysThatAShapeDoesNotFit) {
   Eigen::Matrix3Xd stated = shape;
   stated.col(1) += Eigen::Vector3d(0.01, 0.02, 0);
   EXPECT_THAT(Odd(stated), HasSubstr("probe.rig has them: is it the shape of another body?"));
-  EXPECT_THAT(Odd(0.5 * shape, ""), HasSubstr("are the poses inverted (--measured_inverse)"));
+}
+
+TEST_F(ShapeMisfit, HoldsAMeanAgainstItsPoses) {
+  EXPECT_THAT(Odd(shape, ""), IsEmpty());
+  EXPECT_THAT(Odd(shape, "", true), HasSubstr("are the poses inverted (--measured_inverse)"));
+  Eigen::Matrix3Xd turned = shape;
+  turned.row(0) *= -1.0;
+  turned.row(1) *= -1.0;  // which a motion a row would hide
+  EXPECT_THAT(Odd(turned, ""), HasSubstr("from where its poses have them"));
 }
 
 }  // namespace

@@ -133,8 +133,8 @@ BodyShape MakeBodyShape(const std::vector<Recording>& tracker,
                      fmt::format("the markers of {} on one line", Quoted(first.name)),
                      "three that are not");
   if (!shape.warnings.empty()) return shape;
-  const std::string odd =
-      OddShape(tracker, sides, shape.body.p_in_body, {stated ? stated->path : ""});
+  const std::string odd = OddShape(
+      tracker, sides, shape.body.p_in_body, {stated ? stated->path : "", measured_inverse});
   if (!odd.empty()) shape.warnings.push_back(odd);
   return shape;
 }

@@ -56,6 +56,29 @@ double Misfit(const std::vector<Eigen::Matrix3Xd>& rows, const Eigen::Matrix3Xd&
   return std::sqrt(sum / static_cast<double>(rows.size()) / static_cast<double>(shape.cols()));
 }
 
+// The same with the file's own poses; 0 where there is nothing to compare.
+double MisfitOfPoses(const std::vector<Recording>& tracker,
+                     const std::vector<const TrackedSide*>& sides,
+                     const Eigen::Matrix3Xd& shape,
+                     bool measured_inverse) {
+  double sum = 0.0, count = 0.0;
+  for (std::size_t file = 0; file < tracker.size(); ++file) {
+    for (std::size_t row = 0; row < tracker[file].rows; ++row) {
+      const std::optional<Pose3d>& pose = sides[file]->body->poses[row];
+      if (!pose) continue;
+      const Pose3d seen_from_body = measured_inverse ? pose->Inverse() : *pose;
+      for (Eigen::Index m = 0; m < shape.cols(); ++m) {
+        const int marker = sides[file]->markers[static_cast<std::size_t>(m)];
+        const auto& seen = tracker[file].markers[static_cast<std::size_t>(marker)].points[row];
+        if (!seen) continue;
+        sum += (*seen - seen_from_body * Eigen::Vector3d(shape.col(m))).squaredNorm();
+        count += 1.0;
+      }
+    }
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
 // Column m of the shape in this order is marker m's.
 struct Candidate {
   Order order;
@@ -96,19 +119,20 @@ std::string OddShape(const std::vector<Recording>& tracker,
                      const std::vector<const TrackedSide*>& sides,
                      const Eigen::Matrix3Xd& shape,
                      const ShapeSource& source) {
+  const std::string name = Quoted(sides.front()->name), path = tracker.front().path;
+  if (source.path.empty()) {
+    const double misfit = MisfitOfPoses(tracker, sides, shape, source.measured_inverse);
+    if (misfit < kOddMisfit) return "";
+    return fmt::format(
+        "{}: the markers of {} are {:.3g} mm (RMS) from where its poses have them: are the poses "
+        "inverted (--measured_inverse), or in another frame?",
+        path,
+        name,
+        1e3 * misfit);
+  }
   const std::vector<Eigen::Matrix3Xd> rows = WholeRows(tracker, sides);
   if (rows.empty()) return "";
   const double misfit = Misfit(rows, shape);
-  const std::string name = Quoted(sides.front()->name), path = tracker.front().path;
-  if (source.path.empty())
-    return misfit < kOddMisfit
-               ? ""
-               : fmt::format(
-                     "{}: the markers of {} are {:.3g} mm (RMS) from where its poses have them: "
-                     "are the poses inverted (--measured_inverse), or in another frame?",
-                     path,
-                     name,
-                     1e3 * misfit);
   const Candidate best = BestOf(rows, shape);
   const std::string odd = fmt::format(
       "{}: the markers of {} are {:.3g} mm (RMS) from where {} has "
