@@ -123,7 +123,7 @@ std::string MeasuredText(const Dataset& dataset) {
 }
 
 void PrintSummary(const Assembled& assembled,
-                  const std::optional<std::size_t>& tried,
+                  const std::optional<Conventions>& conventions,
                   const std::string& path) {
   fmt::print("{}: {} robot poses{}\n",
              assembled.dataset.name,
@@ -132,7 +132,14 @@ void PrintSummary(const Assembled& assembled,
   fmt::print("  robot       {}\n", assembled.robot);
   if (!assembled.tracker.empty()) fmt::print("  tracker     {}\n", assembled.tracker);
   for (const std::string& body : assembled.bodies) fmt::print("  {}\n", body);
-  if (tried) fmt::print("  conventions as stated, none of {} others fits much better\n", *tried);
+  if (conventions)
+    fmt::print(
+        "  conventions as stated, none of {} others fits much better; base and tool leave {:.3g} "
+        "mm "
+        "and {:.3g} mrad\n",
+        conventions->tried - 1,
+        1e3 * conventions->stated.rms_position,
+        1e3 * conventions->stated.rms_orientation);
   fmt::print("  written to  {}\n", path);
 }
 
@@ -162,7 +169,7 @@ int RunImport(const std::vector<std::string>& files) {
   if (!FLAGS_force) RequireUnchanged(folder, DatasetFiles().front().name);
   const NamedFiles dataset_files = FilesOf(assembled, files);
   TryReading(dataset_files, assembled.dataset.measurement.has_value(), FLAGS_out);
-  const std::optional<std::size_t> tried = CheckConventions(
+  const std::optional<Conventions> conventions = CheckConventions(
       sources.robot, sources.tracker, options, !FLAGS_robot_map.empty(), assembled.dataset);
   folder.Write(dataset_files);
   if (FLAGS_quiet) return kDone;
@@ -172,7 +179,7 @@ int RunImport(const std::vector<std::string>& files) {
                                folder.PathsOf(dataset_files),
                                {{"poses", assembled.dataset.robot_poses.rows.size()}}));
   else
-    PrintSummary(assembled, tried, folder.PathOf(DatasetFiles().front().name));
+    PrintSummary(assembled, conventions, folder.PathOf(DatasetFiles().front().name));
   return kDone;
 }
 

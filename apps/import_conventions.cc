@@ -76,7 +76,7 @@ std::string Words(const Conventions& found, const AssembleOptions& options, bool
 
 }  // namespace
 
-std::optional<std::size_t> CheckConventions(const Recording& robot,
+std::optional<Conventions> CheckConventions(const Recording& robot,
                                             const std::vector<Recording>& tracker,
                                             const AssembleOptions& options,
                                             bool robot_by_map,
@@ -95,7 +95,7 @@ std::optional<std::size_t> CheckConventions(const Recording& robot,
   stated.is_inverse = options.robot_inverse;
   const std::optional<Conventions> found = TryConventions(StatedPoses(body), measured, stated);
   if (!found) return std::nullopt;
-  if (found->gain < kClearGain) return found->tried - 1;
+  if (found->gain < kClearGain) return found;
   PrintWarning(
       fmt::format("{}: base and tool leave {:.3g} mm and {:.3g} mrad with the conventions "
                   "as stated, but {:.3g} mm and {:.3g} mrad with {}{}",

@@ -4,16 +4,17 @@
 #include <optional>
 #include <vector>
 
+#include "estimator/conventions.h"
 #include "measurement/dataset.h"
 #include "measurement/importers/assemble.h"
 
 namespace hexcal {
 
 // Tries other conventions on the imported data and prints a warning where another than the stated
-// one fits ten times better. Gives how many others were tried where none does; nothing where one
-// does, or where there is too little to tell. robot_by_map: a column map says what the robot's
+// one fits ten times better. Gives what was found where none does; nothing where one does, or where
+// there is too little to tell. robot_by_map: a column map says what the robot's
 // columns mean.
-std::optional<std::size_t> CheckConventions(const Recording& robot,
+std::optional<Conventions> CheckConventions(const Recording& robot,
                                             const std::vector<Recording>& tracker,
                                             const AssembleOptions& options,
                                             bool robot_by_map,

@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "config/number.h"
 #include "measurement/importers/formats.h"
 #include "model/machine.h"
 #include "testing/matchers.h"
@@ -87,6 +89,22 @@ TEST_F(CliImport, GivesTheSameByPosesWithinTheirNoise) {
   EXPECT_TRUE(
       testing::PoseNear(PoseOf(result["world_from_base"]), truth.world_from_base, 5e-4, 2e-3));
   EXPECT_EQ(result["poses"].size(), 58u);
+}
+
+// As much as a calibration leaves, not one of the least squares.
+TEST_F(CliImport, SaysWhatTheConventionsAsStatedLeave) {
+  const std::string out = ImportExample({"--pair=rows", "--kind=poses"}).out;
+  std::smatch left;
+  ASSERT_TRUE(std::regex_search(
+      out,
+      left,
+      std::regex("others fits much better; base and tool leave (\\S+) mm and (\\S+) mrad")))
+      << out;
+  ASSERT_EQ(RunHexcal({{"calibrate", "mine/dataset.yaml", "--out=out"}, folder.Path("")}).status,
+            0);
+  const Json result = Json::parse(folder.Read("out/mine/result.json"));
+  EXPECT_NEAR(ParseDouble(left.str(1)).value() / (1e3 * result["rmspe"].get<double>()), 1.0, 0.2);
+  EXPECT_NEAR(ParseDouble(left.str(2)).value() / (1e3 * result["rmsoe"].get<double>()), 1.0, 0.2);
 }
 
 TEST_F(CliImport, SaysWhereAnotherConventionFits) {

@@ -100,7 +100,7 @@ TEST(ReadingCheck, CleanReadingsAreFoundBadOnceInAHundredDatasets) {
   int alarms = 0, datasets = 0;
   for (const MarkerScene& scene : Scenes()) {
     const MarkerTruth truth = MakeMarkerTruth(rng, scene);
-    double squared = 0.0, beyond = 0.0, count = 0.0;
+    double squared = 0.0, beyond = 0.0, count = 0.0, scaled = 0.0, scaled_count = 0.0;
     for (int k = 0; k < kDraws; ++k) {
       Dataset dataset = DrawMarkers(truth, rng());
       if (k % 2 == 1) dataset.measurement->marker_sigma.reset();
@@ -109,6 +109,8 @@ TEST(ReadingCheck, CleanReadingsAreFoundBadOnceInAHundredDatasets) {
       ++datasets;
       if (k % 2 == 1) {
         EXPECT_EQ(all.search.basis, NoiseBasis::kScaled);
+        for (const ReadingCheck& check : all.search.checks) scaled += check.squared;
+        scaled_count += static_cast<double>(all.search.checks.size());
         continue;
       }
       double redundancy = 0.0;
@@ -124,6 +126,8 @@ TEST(ReadingCheck, CleanReadingsAreFoundBadOnceInAHundredDatasets) {
     }
     EXPECT_NEAR(squared / count, 3.0, 0.15) << count;
     EXPECT_NEAR(beyond / count, 0.05, 0.012) << count;
+    // By a noise of some hundred degrees of freedom: 3 f / (f - 2) of Fisher's distribution.
+    EXPECT_NEAR(scaled / scaled_count, 3.0, 0.15) << scaled_count;
   }
   EXPECT_LE(alarms, 0.01 * datasets + 4.0 * std::sqrt(0.01 * datasets));
 }
