@@ -25,7 +25,7 @@ Chart BudgetChart(const PointReport& report) {
     shares.push_back(100.0 * row.share);
     sizes.push_back(fmt::format("{:.4f} mm", 1e3 * row.contribution));
   }
-  Json bars = NamedBars(names, shares, "%{x:.3g} %, %{customdata}", &chart.layout);
+  Json bars = NamedBars(names, shares, "%{x:.3g} %, %{customdata}", &chart);
   bars["customdata"] = sizes;
   chart.data = Json::array({bars});
   chart.layout["xaxis"] = Axis("% of the variance", true);

@@ -98,7 +98,7 @@ std::string LeftOutNote(const std::vector<bool>& used) {
 Json NamedBars(const std::vector<std::string>& names,
                const Json& lengths,
                const std::string& hover,
-               Json* layout) {
+               Chart* chart) {
   constexpr int kRowHeight = 40, kNameAbove = 16, kRest = 76;  // px
   Json rows = Json::array(), labels = Json::array(), annotations = Json::array();
   for (std::size_t k = 0; k < names.size(); ++k) {
@@ -113,14 +113,15 @@ Json NamedBars(const std::vector<std::string>& names,
                            {"font", {{"size", 12}}},
                            {"showarrow", false}});
   }
+  chart->has_rows = true;
   const double last = static_cast<double>(names.size());
-  (*layout)["height"] = kRest + kRowHeight * static_cast<int>(names.size());
-  (*layout)["yaxis"] = {{"range", {last - 0.5, -0.8}},
-                        {"showticklabels", false},
-                        {"showgrid", false},
-                        {"zeroline", false}};
-  (*layout)["margin"] = {{"l", 16}, {"r", 16}, {"t", 12}, {"b", 46}};
-  (*layout)["annotations"] = annotations;
+  chart->layout["height"] = kRest + kRowHeight * static_cast<int>(names.size());
+  chart->layout["yaxis"] = {{"range", {last - 0.5, -0.8}},
+                            {"showticklabels", false},
+                            {"showgrid", false},
+                            {"zeroline", false}};
+  chart->layout["margin"] = {{"l", 16}, {"r", 16}, {"t", 12}, {"b", 46}};
+  chart->layout["annotations"] = annotations;
   return {{"type", "bar"},
           {"orientation", "h"},
           {"y", rows},

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "report/html/page.h"
+
 namespace hexcal {
 
 // Pieces of plotly.js charts.
@@ -38,11 +40,11 @@ std::string LeftOutNote(const std::vector<bool>& used);
 
 // Horizontal bars, the first on top, with their names (not escaped) above them, where these have
 // room on narrow screens too. hover: of a bar, after its name. Sets the layout's height, y axis and
-// annotations.
+// annotations, and that the chart has rows.
 nlohmann::ordered_json NamedBars(const std::vector<std::string>& names,
                                  const nlohmann::ordered_json& lengths,
                                  const std::string& hover,
-                                 nlohmann::ordered_json* layout);
+                                 Chart* chart);
 
 // A dashed level across the picture, for "shapes" of a layout.
 nlohmann::ordered_json Level(const char* name, double y, const char* colour);

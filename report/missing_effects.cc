@@ -156,7 +156,7 @@ Chart TestedChart(const Screening& missing) {
                                         : kMostDigits);
   }
   const double level = -std::log10(missing.alpha);
-  chart.data = Json::array({NamedBars(names, lengths, "%{x:.2f}", &chart.layout)});
+  chart.data = Json::array({NamedBars(names, lengths, "%{x:.2f}", &chart)});
   chart.layout["xaxis"] = Axis("-log10 p, corrected", true);
   chart.layout["shapes"] = Json::array({{{"type", "line"},
                                          {"x0", level},

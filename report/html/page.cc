@@ -141,11 +141,12 @@ void HtmlPage::Figure(const Chart& chart) {
     (chart.is_in_space ? has_space_ : has_flat_) = true;
     body_ += fmt::format(
         "<div class=\"plot\" role=\"img\" aria-label=\"{}\" data-spec=\"spec-{}\" "
-        "data-library=\"{}\" data-height=\"{}\"></div>\n",
+        "data-library=\"{}\" data-height=\"{}\"{}></div>\n",
         EscapeHtml(chart.title),
         number,
         chart.is_in_space ? "3d" : "2d",
-        chart.layout.value("height", kPlotHeight));
+        chart.layout.value("height", kPlotHeight),
+        chart.has_rows ? " data-rows=\"\"" : "");
     body_ += fmt::format("<script type=\"application/json\" id=\"spec-{}\">{}</script>\n",
                          number,
                          JsonForScript({{"data", chart.data}, {"layout", chart.layout}}));

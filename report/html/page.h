@@ -36,6 +36,7 @@ struct Chart {
   nlohmann::ordered_json layout = nlohmann::ordered_json::object();
   HtmlTable table;  // the same numbers
   bool is_in_space = false;
+  bool has_rows = false;  // each of which needs its height on paper, too
 };
 
 // A picture that needs no library: SVG elements in a box of width times height units, which are

@@ -16,8 +16,9 @@
     }
   };
   // On paper two pictures stand side by side where several belong together (page.css), in px of a
-  // page of A4 less its margins, and all are lower, so that more than one row fits on a page.
-  const kPrintWidth = 660, kPrintHalf = 322, kPrintHeight = 0.58, kPrintFont = 10;
+  // page of A4 less its margins, and all are lower, so that more than one row fits on a page; those of rows with
+  // names above them not as much.
+  const kPrintWidth = 660, kPrintHalf = 322, kPrintHeight = 0.58, kPrintRows = 0.9, kPrintFont = 10;
   const canHover = window.matchMedia("(hover: hover)");
   const darkLook = window.matchMedia("(prefers-color-scheme: dark)");
   let printing = false;
@@ -95,7 +96,8 @@
     });
     if (printing) {
       full.width = isHalf(plot) ? kPrintHalf : kPrintWidth;
-      full.height = Math.round(kPrintHeight * Number(plot.dataset.height));
+      const part = plot.dataset.rows === undefined ? kPrintHeight : kPrintRows;
+      full.height = Math.round(part * Number(plot.dataset.height));
       full.font = Object.assign({}, full.font, { size: kPrintFont });
     }
     if (full.scene) {
