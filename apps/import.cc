@@ -134,9 +134,8 @@ void PrintSummary(const Assembled& assembled,
   for (const std::string& body : assembled.bodies) fmt::print("  {}\n", body);
   if (conventions)
     fmt::print(
-        "  conventions as stated, none of {} others fits much better; base and tool leave {:.3g} "
-        "mm "
-        "and {:.3g} mrad\n",
+        "  conventions as stated, none of {} others fits much better; base and tool leave "
+        "{:.3g} mm and {:.3g} mrad\n",
         conventions->tried - 1,
         1e3 * conventions->stated.rms_position,
         1e3 * conventions->stated.rms_orientation);

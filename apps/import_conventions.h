@@ -12,8 +12,7 @@ namespace hexcal {
 
 // Tries other conventions on the imported data and prints a warning where another than the stated
 // one fits ten times better. Gives what was found where none does; nothing where one does, or where
-// there is too little to tell. robot_by_map: a column map says what the robot's
-// columns mean.
+// there is too little to tell. robot_by_map: a column map says what the robot's columns mean.
 std::optional<Conventions> CheckConventions(const Recording& robot,
                                             const std::vector<Recording>& tracker,
                                             const AssembleOptions& options,
