@@ -17,12 +17,12 @@
 #include "apps/message.h"
 #include "apps/output_folder.h"
 #include "apps/record_of.h"
+#include "apps/report_page.h"
 #include "apps/usage_error.h"
 #include "report/audit_html.h"
 #include "report/audit_json.h"
 #include "report/audit_table.h"
 #include "report/compare_json.h"
-#include "report/html/page.h"
 #include "report/result_json.h"
 
 namespace hexcal {
@@ -97,7 +97,7 @@ int RunAudit(const std::vector<std::string>& files) {
                        {"result.json", std::string(kResultMark)},
                        {"model.yaml", std::string(kModelMark)},
                        {"run.json", std::string(kRunMark)},
-                       {"report.html", HtmlPage::AnyMark()}},
+                       ReportPage("audit")},
                       AllInputs(dataset, requirements),
                       FLAGS_force);
   CheckHistoryFlag();

@@ -19,11 +19,11 @@
 #include "apps/output_folder.h"
 #include "apps/progress.h"
 #include "apps/record_of.h"
+#include "apps/report_page.h"
 #include "config/input_error.h"
 #include "estimator/calibrate_grown.h"
 #include "model/machine.h"
 #include "report/calibrate_html.h"
-#include "report/html/page.h"
 #include "report/result_table.h"
 
 namespace hexcal {
@@ -33,7 +33,7 @@ std::vector<OutputFile> ResultFiles() {
   std::vector<OutputFile> files = {{"result.json", std::string(kResultMark)},
                                    {"model.yaml", std::string(kModelMark)},
                                    {"run.json", std::string(kRunMark)}};
-  if (FLAGS_report) files.push_back({"report.html", HtmlPage::AnyMark()});
+  if (FLAGS_report) files.push_back(ReportPage("calibrate"));
   return files;
 }
 

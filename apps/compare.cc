@@ -15,11 +15,11 @@
 #include "apps/message.h"
 #include "apps/output_folder.h"
 #include "apps/record_of.h"
+#include "apps/report_page.h"
 #include "apps/stage_bars.h"
 #include "report/compare_html.h"
 #include "report/compare_json.h"
 #include "report/compare_table.h"
-#include "report/html/page.h"
 
 namespace hexcal {
 namespace {
@@ -56,7 +56,7 @@ int RunCompare(const std::vector<std::string>& files) {
   const Dataset dataset = OpenDataset(files[0], true);
   std::vector<OutputFile> outputs = {{"compare.json", std::string(kCompareMark)},
                                      {"run.json", std::string(kRunMark)}};
-  if (FLAGS_report) outputs.push_back({"report.html", HtmlPage::AnyMark()});
+  if (FLAGS_report) outputs.push_back(ReportPage("compare"));
   OutputFolder folder(FLAGS_out, dataset.name, outputs, InputFiles(dataset, ""), FLAGS_force);
   const CompareOptions options = OptionsFromFlags();
   const Comparison comparison = CompareWithBars(dataset, options);

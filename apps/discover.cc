@@ -15,6 +15,7 @@
 #include "apps/message.h"
 #include "apps/output_folder.h"
 #include "apps/record_of.h"
+#include "apps/report_page.h"
 #include "apps/stage_bars.h"
 #include "apps/usage_error.h"
 #include "discovery/discover.h"
@@ -22,7 +23,6 @@
 #include "report/discovery_html.h"
 #include "report/discovery_json.h"
 #include "report/discovery_table.h"
-#include "report/html/page.h"
 #include "report/result_json.h"
 
 namespace hexcal {
@@ -70,7 +70,7 @@ int RunDiscover(const std::vector<std::string>& files) {
                        {"result.json", std::string(kResultMark)},
                        {"model.yaml", std::string(kModelMark)},
                        {"run.json", std::string(kRunMark)},
-                       {"report.html", HtmlPage::AnyMark()}},
+                       ReportPage("discover")},
                       InputFiles(dataset, FLAGS_model),
                       FLAGS_force);
   CheckHistoryFlag();

@@ -8,10 +8,13 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <system_error>
 
 #include "apps/interrupt.h"
+#include "apps/message.h"
 #include "config/atomic_file.h"
 #include "config/input_error.h"
 
@@ -43,6 +46,22 @@ bool HasMark(const std::string& path, const std::string& mark) {
          FirstBytes(path).find(mark) != std::string::npos;
 }
 
+// Which command wrote a page that has the mark; empty where it does not say.
+std::string WriterOf(const std::string& path, const std::string& mark) {
+  const std::string bytes = FirstBytes(path);
+  const std::size_t at = bytes.find(mark);
+  if (at == std::string::npos) return "";
+  const std::size_t begin = at + mark.size();
+  const std::size_t end = bytes.find_first_not_of("abcdefghijklmnopqrstuvwxyz", begin);
+  return end == std::string::npos || bytes[end] != '/' ? "" : bytes.substr(begin, end - begin);
+}
+
+std::string ContentOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw OutputError(fmt::format("{}: cannot be read, to be kept", path));
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
 void RefuseInput(const std::string& path, const std::vector<std::string>& inputs) {
   for (const std::string& input : inputs) {
     std::error_code not_both_there;
@@ -71,29 +90,53 @@ OutputFolder::OutputFolder(const std::string& out,
                            const std::vector<OutputFile>& files,
                            const std::vector<std::string>& inputs,
                            bool force)
-    : path_(dataset_name.empty() ? out : (fs::path(out) / dataset_name).string()) {
+    : path_(dataset_name.empty() ? out : (fs::path(out) / dataset_name).string()), inputs_(inputs) {
   RequireWritable(path_);
   const bool first_is_ours = HasMark(PathOf(files.front().name), files.front().mark);
   for (const OutputFile& file : files) {
-    const std::string path = PathOf(file.name);
-    if (!Exists(path)) continue;
-    RefuseInput(path, inputs);
-    std::error_code ignored;
-    if (fs::is_directory(path, ignored))
-      throw OutputError(fmt::format("{}: a folder is in the way", path));
-    const bool is_ours = file.mark.empty() ? first_is_ours : HasMark(path, file.mark);
-    if (!is_ours && !force)
-      throw OutputError(fmt::format(
-          "{}: this file is in the way, and not one of hexcal's (--force replaces it)", path));
+    const bool is_ours = file.mark.empty() ? first_is_ours : HasMark(PathOf(file.name), file.mark);
+    CheckFile(file, is_ours, force);
+    if (is_ours && !file.command.empty()) KeepOther(file, force);
   }
+}
+
+void OutputFolder::CheckFile(const OutputFile& file, bool is_ours, bool force) {
+  const std::string path = PathOf(file.name);
+  if (!Exists(path)) return;
+  RefuseInput(path, inputs_);
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored))
+    throw OutputError(fmt::format("{}: a folder is in the way", path));
+  if (!is_ours && !force)
+    throw OutputError(fmt::format(
+        "{}: this file is in the way, and not one of hexcal's (--force replaces it)", path));
+}
+
+void OutputFolder::KeepOther(const OutputFile& page, bool force) {
+  const std::string writer = WriterOf(PathOf(page.name), page.mark);
+  if (writer.empty() || writer == page.command) return;
+  const OutputFile kept = {fmt::format("report-{}.html", writer), page.mark + writer + "/"};
+  CheckFile(kept, HasMark(PathOf(kept.name), kept.mark), force);
+  kept_.push_back({page.name, kept.name, writer});
 }
 
 void OutputFolder::Write(const std::vector<std::pair<std::string, std::string>>& files) {
   std::vector<std::pair<std::string, std::string>> by_path;
   for (const auto& [name, content] : files) by_path.emplace_back(PathOf(name), content);
-  const WhileWriting no_interrupt;
-  MakeFolder(path_);
-  WriteFilesAtomically(by_path);
+  // Behind the others, since the last takes its place first.
+  for (const KeptPage& page : kept_)
+    by_path.emplace_back(PathOf(page.kept_as), ContentOf(PathOf(page.name)));
+  {
+    const WhileWriting no_interrupt;
+    MakeFolder(path_);
+    WriteFilesAtomically(by_path);
+  }
+  for (const KeptPage& page : kept_)
+    PrintWarning(fmt::format("{} was of 'hexcal {}', whose page is now {}",
+                             PathOf(page.name),
+                             page.command,
+                             PathOf(page.kept_as)));
+  kept_.clear();
 }
 
 std::string OutputFolder::PathOf(const std::string& name) const {

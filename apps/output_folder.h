@@ -13,6 +13,9 @@ namespace hexcal {
 struct OutputFile {
   std::string name;
   std::string mark;
+  // Of a page, whose mark the name of a command follows: the command that writes it here. One of
+  // another command is kept beside it, as report-COMMAND.html.
+  std::string command = {};
 };
 
 // What stands in the first bytes of each kind of file that hexcal writes.
@@ -36,7 +39,7 @@ class OutputFolder {
                bool force);
 
   // Makes the folder. All of the files (name, content) are written, or an OutputError is thrown and
-  // all stand as before; interrupted or not.
+  // all stand as before; interrupted or not. A warning says where a page of another command went.
   void Write(const std::vector<std::pair<std::string, std::string>>& files);
 
   const std::string& path() const { return path_; }
@@ -45,7 +48,16 @@ class OutputFolder {
       const std::vector<std::pair<std::string, std::string>>& files) const;  // (name, content)
 
  private:
+  // A page of another command: its name, that under which it is kept, and that command.
+  struct KeptPage {
+    std::string name, kept_as, command;
+  };
+  void CheckFile(const OutputFile& file, bool is_ours, bool force);
+  void KeepOther(const OutputFile& page, bool force);
+
   std::string path_;
+  std::vector<std::string> inputs_;
+  std::vector<KeptPage> kept_;
 };
 
 // InputError where two of several datasets, (file, name) each, would write to the same folder.

@@ -11,10 +11,10 @@
 #include "apps/message.h"
 #include "apps/output_folder.h"
 #include "apps/record_of.h"
+#include "apps/report_page.h"
 #include "apps/usage_error.h"
 #include "estimator/pivot.h"
 #include "measurement/dataset_header.h"
-#include "report/html/page.h"
 #include "report/pivot_html.h"
 #include "report/pivot_json.h"
 #include "report/pivot_table.h"
@@ -78,7 +78,7 @@ int RunPivot(const std::vector<std::string>& files) {
   const std::vector<std::string> inputs = InputsOf(dataset);
   std::vector<OutputFile> outputs = {{"pivot.json", std::string(kPivotMark)},
                                      {"run.json", std::string(kRunMark)}};
-  if (FLAGS_report) outputs.push_back({"report.html", HtmlPage::AnyMark()});
+  if (FLAGS_report) outputs.push_back(ReportPage("pivot"));
   OutputFolder folder(FLAGS_out, dataset.name, outputs, inputs, FLAGS_force);
   PivotOptions options;
   options.reject_outliers = FLAGS_outliers == "reject";

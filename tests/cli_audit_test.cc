@@ -95,6 +95,7 @@ TEST_F(CliAudit, RefusesWhatIsNotAsItShouldBe) {
   EXPECT_EQ(Audit({"--quiet"}).status, 5);
   folder.Write("out/neurobot/report.html", "<!doctype html>\n<!-- hexcal/report/calibrate/1 -->\n");
   EXPECT_EQ(Audit({"--quiet"}).status, 0);  // another command's
+  EXPECT_THAT(Read("report-calibrate.html"), HasSubstr("hexcal/report/calibrate/1"));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "apps/output_folder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -16,6 +17,7 @@ namespace {
 
 using ::hexcal::testing::InputErrorText;
 using ::hexcal::testing::TemporaryFolder;
+using ::testing::HasSubstr;
 
 const std::vector<OutputFile> kResultAndTable = {{"result.json", std::string(kResultMark)},
                                                  {"table.csv", ""}};
@@ -100,6 +102,53 @@ TEST(OutputFolder, ADanglingLinkIsInTheWay) {
   std::filesystem::create_directories(top.Path("out/name"));
   std::filesystem::create_symlink(top.Path("nowhere"), top.Path("out/name/result.json"));
   EXPECT_NE(OutputErrorText(top, false).find("in the way"), std::string::npos);
+}
+
+std::string Page(const std::string& command) {
+  return "<!doctype html>\n<!-- hexcal/report/" + command + "/1 -->\n";
+}
+
+OutputFile PageOf(const std::string& command) {
+  return {"report.html", "<!-- hexcal/report/", command};
+}
+
+TEST(OutputFolder, KeepsThePageOfAnotherCommand) {
+  const TemporaryFolder top;
+  Place(top, "report.html", Page("calibrate"));
+  const auto write = [&](const std::string& command) {
+    OutputFolder folder(top.Path("out"), "name", {PageOf(command)}, {}, false);
+    ::testing::internal::CaptureStderr();
+    folder.Write({{"report.html", Page(command)}});
+    return ::testing::internal::GetCapturedStderr();
+  };
+  const std::string kept = top.Path("out/name/report-calibrate.html");
+  EXPECT_THAT(write("audit"), HasSubstr("of 'hexcal calibrate', whose page is now " + kept + "\n"));
+  EXPECT_EQ(top.Read("out/name/report-calibrate.html"), Page("calibrate"));
+  EXPECT_EQ(top.Read("out/name/report.html"), Page("audit"));
+  EXPECT_EQ(write("audit"), "");
+  EXPECT_FALSE(std::filesystem::exists(top.Path("out/name/report-audit.html")));
+}
+
+TEST(OutputFolder, KeepsAPageNotInThePlaceOfAForeignFile) {
+  const TemporaryFolder top;
+  Place(top, "report.html", Page("calibrate"));
+  Place(top, "report-calibrate.html", "<html>mine</html>");
+  const auto open = [&](bool force) {
+    OutputFolder(top.Path("out"), "name", {PageOf("audit")}, {}, force);
+  };
+  EXPECT_THROW(open(false), OutputError);
+  EXPECT_NO_THROW(open(true));
+  Place(top, "report-calibrate.html", Page("calibrate"));
+  EXPECT_NO_THROW(open(false));
+}
+
+// Nor is a name taken from a page that leaves the folder.
+TEST(OutputFolder, APageThatNamesNoCommandIsReplaced) {
+  const TemporaryFolder top;
+  Place(top, "report.html", Page("../../x"));
+  OutputFolder folder(top.Path("out"), "name", {PageOf("audit")}, {}, false);
+  folder.Write({{"report.html", Page("audit")}});
+  EXPECT_EQ(top.Names(), std::vector<std::string>{"out"});
 }
 
 TEST(OutputFolder, TwoDatasetsOfOneNameAreRefused) {

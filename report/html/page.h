@@ -80,8 +80,7 @@ class HtmlPage {
 
   std::string Html() const;
 
-  // What the second line of such a page is; and what it begins with, of whatever kind, since the
-  // commands share a folder and replace each other's report.html.
+  // What the second line of such a page is; and what it begins with, before the kind.
   static std::string Mark(std::string_view kind);
   static std::string AnyMark() { return "<!-- hexcal/report/"; }
 
