@@ -168,8 +168,12 @@ int RunImport(const std::vector<std::string>& files) {
   if (!FLAGS_force) RequireUnchanged(folder, DatasetFiles().front().name);
   const NamedFiles dataset_files = FilesOf(assembled, files);
   TryReading(dataset_files, assembled.dataset.measurement.has_value(), FLAGS_out);
-  const std::optional<Conventions> conventions = CheckConventions(
-      sources.robot, sources.tracker, options, !FLAGS_robot_map.empty(), assembled.dataset);
+  const std::optional<Conventions> conventions =
+      CheckConventions(sources.robot,
+                       sources.tracker,
+                       options,
+                       {!FLAGS_robot_map.empty(), !FLAGS_map.empty()},
+                       assembled.dataset);
   folder.Write(dataset_files);
   if (FLAGS_quiet) return kDone;
   if (FLAGS_json)

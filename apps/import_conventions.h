@@ -10,13 +10,18 @@
 
 namespace hexcal {
 
+// For which of the files a column map says what their columns mean.
+struct ByMap {
+  bool robot = false, tracker = false;
+};
+
 // Tries other conventions on the imported data and prints a warning where another than the stated
 // one fits ten times better. Gives what was found where none does; nothing where one does, or where
-// there is too little to tell. robot_by_map: a column map says what the robot's columns mean.
+// there is too little to tell.
 std::optional<Conventions> CheckConventions(const Recording& robot,
                                             const std::vector<Recording>& tracker,
                                             const AssembleOptions& options,
-                                            bool robot_by_map,
+                                            const ByMap& by_map,
                                             const Dataset& dataset);
 
 }  // namespace hexcal

@@ -7,6 +7,7 @@
 #include "config/units.h"
 #include "estimator/closed_form.h"
 #include "estimator/rms.h"
+#include "geometry/quaternion_order.h"
 #include "geometry/rotation_order.h"
 
 namespace hexcal {
@@ -23,10 +24,7 @@ Pose3d PoseBy(const RobotReading& reading, const StatedPose& read) {
     const Eigen::Vector3d angles = reading.angle_factor * read.vector->tail<3>();
     pose = MakePose(RotationByOrder(reading.order, angles), read.vector->head<3>());
   } else if (reading.quaternion_shift != 0) {
-    const Eigen::Quaterniond& q = pose.rotation;
-    const double wxyz[] = {q.w(), q.x(), q.y(), q.z()};
-    const auto at = [&](int i) { return wxyz[(i + reading.quaternion_shift) % 4]; };
-    pose.rotation = Eigen::Quaterniond(at(0), at(1), at(2), at(3));
+    pose.rotation = Shifted(pose.rotation, reading.quaternion_shift);
   }
   if (reading.is_transposed) pose.rotation = pose.rotation.conjugate();
   pose.translation *= reading.length_factor;
@@ -68,12 +66,11 @@ int Changes(const RobotReading& a, const RobotReading& b) {
 }
 
 // Rows with a pose in all the measured sides, spread over all.
-std::vector<std::size_t> ChooseRows(
-    const std::vector<std::vector<std::optional<Pose3d>>>& measured) {
+std::vector<std::size_t> ChooseRows(const std::vector<MeasuredReading>& measured) {
   std::vector<std::size_t> rows;
-  for (std::size_t i = 0; i < measured.front().size(); ++i)
+  for (std::size_t i = 0; i < measured.front().world_from_tool.size(); ++i)
     if (std::all_of(measured.begin(), measured.end(), [i](const auto& side) {
-          return side[i].has_value();
+          return side.world_from_tool[i].has_value();
         }))
       rows.push_back(i);
   if (rows.size() <= kMostRows) return rows;
@@ -101,10 +98,9 @@ double Gain(const ConventionFit& from, const ConventionFit& to) {
 
 }  // namespace
 
-std::optional<Conventions> TryConventions(
-    const std::vector<StatedPose>& poses,
-    const std::vector<std::vector<std::optional<Pose3d>>>& measured,
-    const RobotReading& stated) {
+std::optional<Conventions> TryConventions(const std::vector<StatedPose>& poses,
+                                          const std::vector<MeasuredReading>& measured,
+                                          const RobotReading& stated) {
   const std::vector<std::size_t> rows = ChooseRows(measured);
   if (rows.size() < kFewestRows) return std::nullopt;
   std::vector<Observation> observations(rows.size());
@@ -114,9 +110,9 @@ std::optional<Conventions> TryConventions(
     for (const RobotReading& reading : Readings(stated)) {
       for (std::size_t i = 0; i < rows.size(); ++i) {
         observations[i].base_from_platform = PoseBy(reading, poses[rows[i]]);
-        observations[i].world_from_tool = *measured[side][rows[i]];
+        observations[i].world_from_tool = *measured[side].world_from_tool[rows[i]];
       }
-      ConventionFit fit{reading, side, Changes(reading, stated) + (side != 0), 0.0, 0.0};
+      ConventionFit fit{reading, side, Changes(reading, stated) + measured[side].changes, 0.0, 0.0};
       Fit(observations, fit);
       if (fit.changes == 0) result.stated = fit;
       fits.push_back(fit);

@@ -27,6 +27,12 @@ struct StatedPose {
   std::optional<Vector6d> vector;  // m and rad
 };
 
+// The tracker's side by one way to read its files.
+struct MeasuredReading {
+  std::vector<std::optional<Pose3d>> world_from_tool;  // by row, none where it was not measured
+  int changes = 0;                                     // against the stated one
+};
+
 // A reading of both sides, and what base and tool leave over with it, RMS, m and rad.
 struct ConventionFit {
   RobotReading robot;
@@ -46,13 +52,11 @@ struct Conventions {
 
 // Tries every order of the angles, sense, unit, quaternion order and inversion on the data.
 // poses: of the robot, by row, as the reading stated made of them (before any inversion);
-// measured: for each way to read the tracker, the first the stated one, world_from_tool by row,
-// empty where it was not measured. At most 100 rows, spread over all, are looked at. Nothing where
-// fewer than six are there.
-std::optional<Conventions> TryConventions(
-    const std::vector<StatedPose>& poses,
-    const std::vector<std::vector<std::optional<Pose3d>>>& measured,
-    const RobotReading& stated);
+// measured: the first is the stated one. At most 100 rows, spread over all, are looked at. Nothing
+// where fewer than six are there.
+std::optional<Conventions> TryConventions(const std::vector<StatedPose>& poses,
+                                          const std::vector<MeasuredReading>& measured,
+                                          const RobotReading& stated);
 
 // From where on another convention is worth a word.
 inline constexpr double kClearGain = 10.0;

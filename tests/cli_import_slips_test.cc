@@ -3,9 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
 
+#include "geometry/pose.h"
+#include "testing/random.h"
 #include "testing/run_program.h"
 #include "testing/temporary_folder.h"
 
@@ -94,6 +98,57 @@ TEST_F(CliImportSlips, LeavesTheOrderOfAnglesToTheColumnMap) {
   const ProgramResult refused = ImportRightly({"--robot_map=map.yaml", "--robot_rotation=zyx"});
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err, HasSubstr("found --robot_rotation beside --robot_map"));
+}
+
+// The same poses with the scalar of the tracker's quaternions at the end that the file's reader
+// does not expect, as a trajectory and by a column map.
+TEST_F(CliImportSlips, SaysThatTheScalarOfTheTrackersQuaternionsIsAtTheOtherEnd) {
+  const Pose3d world_from_base{{0.4, -0.2, 1.1}, Exp(Eigen::Vector3d(0.3, -0.2, 0.5))};
+  const Pose3d platform_from_tool{{0.02, 0.01, 0.09}, Exp(Eigen::Vector3d(-0.1, 0.4, 0.2))};
+  std::mt19937_64 random = testing::SeededByTest();
+  const auto row = [](int i, const Pose3d& pose, bool scalar_first) {
+    const Eigen::Vector3d& t = pose.translation;
+    const Eigen::Quaterniond& q = pose.rotation;
+    std::vector<double> numbers = {t.x(), t.y(), t.z(), q.x(), q.y(), q.z()};
+    numbers.insert(scalar_first ? numbers.begin() + 3 : numbers.end(), q.w());
+    return fmt::format("{} {}\n", i, fmt::join(numbers, " "));
+  };
+  std::string robot, first, last;
+  for (int i = 0; i < 20; ++i) {
+    const Eigen::Vector3d translation = testing::UniformVector(random, 0.05);
+    const Pose3d reported{translation, Exp(testing::UniformVector(random, 0.3))};
+    const Pose3d measured = world_from_base * reported * platform_from_tool;
+    robot += row(i, reported, false);
+    first += row(i, measured, true);
+    last += row(i, measured, false);
+  }
+  folder.Write("robot.tum", robot);
+  folder.Write("first.tum", first);
+  folder.Write("last.tum", last);
+  folder.Write("map.yaml",
+               "format: hexcal/columns/1\ndelimiter: blanks\nheader: false\n"
+               "units: {length: m, angle: rad}\n"
+               "bodies: {tool: {position: [2, 3, 4], quaternion: [5, 6, 7, 8]}}\n");
+  const auto import = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "import");
+    arguments.insert(arguments.end(),
+                     {"--robot=robot.tum", "--robot_format=tum", "--pair=rows", "--out=mine"});
+    const ProgramResult imported = RunHexcal({arguments, folder.Path("")});
+    EXPECT_EQ(imported.status, 0) << imported.err;
+    return imported.out + imported.err;
+  };
+  const std::string stated = "conventions as stated, none of 143 others fits";
+  EXPECT_THAT(import({"tum", "last.tum"}), HasSubstr(stated));
+  EXPECT_THAT(import({"tum", "first.tum"}),
+              HasSubstr("with the scalar of the tracker's quaternions first\n"));
+  EXPECT_THAT(import({"columns", "first.tum", "--map=map.yaml"}), HasSubstr(stated));
+  EXPECT_THAT(import({"columns", "last.tum", "--map=map.yaml"}),
+              HasSubstr("with the scalar of the tracker's quaternions last (in the column map, "
+                        "quaternion: w x y z)\n"));
+  // Backwards as well.
+  EXPECT_THAT(import({"tum", "first.tum", "--measured_inverse"}),
+              HasSubstr("with the scalar of the tracker's quaternions first, the tracker's poses "
+                        "as they are (no --measured_inverse); as well with"));
 }
 
 }  // namespace

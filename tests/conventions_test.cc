@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "config/units.h"
+#include "geometry/quaternion_order.h"
 #include "geometry/rotation_order.h"
 #include "testing/matchers.h"
 #include "testing/random.h"
@@ -61,6 +62,8 @@ std::vector<StatedPose> AsTheyAre(const std::vector<Pose3d>& poses) {
   return stated;
 }
 
+std::vector<MeasuredReading> Stated(const Measured& measured) { return {{measured, 0}}; }
+
 RobotReading Order(std::string_view order) {
   RobotReading reading;
   reading.order = order;
@@ -76,7 +79,7 @@ TEST_F(ConventionsTest, FindTheOrderOfTheAngles) {
   const Truth truth(random);
   for (const std::string_view order : kRotationOrders) {
     const auto found =
-        TryConventions(ByOrder(truth.vectors, order), {truth.measured}, Order(order));
+        TryConventions(ByOrder(truth.vectors, order), Stated(truth.measured), Order(order));
     ASSERT_TRUE(found);
     EXPECT_EQ(found->best.robot.order, "xyz") << order;
     EXPECT_FALSE(found->best.robot.is_transposed || found->best.robot.is_inverse) << order;
@@ -90,11 +93,11 @@ TEST_F(ConventionsTest, FindUnits) {
   std::vector<Vector6d> degrees = truth.vectors, metres = truth.vectors;
   for (Vector6d& v : degrees) v.tail<3>() *= 180 / kPi;
   for (Vector6d& v : metres) v.head<3>() *= 1e3;
-  const auto angles = TryConventions(ByOrder(degrees, "xyz"), {truth.measured}, Order("xyz"));
+  const auto angles = TryConventions(ByOrder(degrees, "xyz"), Stated(truth.measured), Order("xyz"));
   EXPECT_NEAR(angles->best.robot.angle_factor, kPi / 180, 1e-12);
   EXPECT_GT(angles->gain, kClearGain);
   EXPECT_EQ(angles->best.changes, 1);
-  const auto lengths = TryConventions(ByOrder(metres, "xyz"), {truth.measured}, Order("xyz"));
+  const auto lengths = TryConventions(ByOrder(metres, "xyz"), Stated(truth.measured), Order("xyz"));
   EXPECT_EQ(lengths->best.robot.length_factor, 1e-3);
   EXPECT_GT(lengths->gain, kClearGain);
   EXPECT_EQ(lengths->best.changes, 1);
@@ -104,21 +107,34 @@ TEST_F(ConventionsTest, FindInversionsOnEitherSide) {
   const Truth truth(random);
   std::vector<Pose3d> inverse;
   for (const Pose3d& pose : truth.poses) inverse.push_back(pose.Inverse());
-  const auto robot = TryConventions(AsTheyAre(inverse), {truth.measured}, {});
+  const auto robot = TryConventions(AsTheyAre(inverse), Stated(truth.measured), {});
   EXPECT_TRUE(robot->best.robot.is_inverse);
   EXPECT_EQ(robot->best.changes, 1);
   EXPECT_GT(robot->gain, kClearGain);
   RobotReading inverted;
   inverted.is_inverse = true;
-  EXPECT_LT(TryConventions(AsTheyAre(inverse), {truth.measured}, inverted)->gain, kClearGain);
+  EXPECT_LT(TryConventions(AsTheyAre(inverse), Stated(truth.measured), inverted)->gain, kClearGain);
 
   Measured backwards;
   for (const auto& pose : truth.measured) backwards.push_back(pose->Inverse());
-  const auto tracker =
-      TryConventions(ByOrder(truth.vectors, "xyz"), {backwards, truth.measured}, Order("xyz"));
+  const auto tracker = TryConventions(
+      ByOrder(truth.vectors, "xyz"), {{backwards, 0}, {truth.measured, 1}}, Order("xyz"));
   EXPECT_EQ(tracker->best.measured, 1u);
   EXPECT_EQ(tracker->best.changes, 1);
   EXPECT_GT(tracker->gain, kClearGain);
+}
+
+// Of two ways to read the tracker that fit alike the one with fewer changes.
+TEST_F(ConventionsTest, ChangeTheTrackersReadingAsLittleAsTheyCan) {
+  const Truth truth(random);
+  Measured wrong = truth.measured;
+  for (auto& pose : wrong) pose->rotation = Shifted(pose->rotation, 3);
+  const auto found = TryConventions(ByOrder(truth.vectors, "xyz"),
+                                    {{wrong, 0}, {truth.measured, 2}, {truth.measured, 1}},
+                                    Order("xyz"));
+  EXPECT_EQ(found->best.measured, 2u);
+  EXPECT_EQ(found->best.changes, 1);
+  EXPECT_GT(found->gain, kClearGain);
 }
 
 TEST_F(ConventionsTest, FindTransposedRotationsAndOrdersOfQuaternions) {
@@ -134,13 +150,13 @@ TEST_F(ConventionsTest, FindTransposedRotationsAndOrdersOfQuaternions) {
     const Eigen::Quaterniond q = pose.rotation;
     pose.rotation = Eigen::Quaterniond(q.z(), q.w(), q.x(), q.y());
   }
-  const auto sense = TryConventions(AsTheyAre(transposed), {truth.measured}, {});
+  const auto sense = TryConventions(AsTheyAre(transposed), Stated(truth.measured), {});
   EXPECT_TRUE(sense->best.robot.is_transposed);
   EXPECT_EQ(sense->best.changes, 1);
-  const auto last = TryConventions(AsTheyAre(scalar_last), {truth.measured}, {});
+  const auto last = TryConventions(AsTheyAre(scalar_last), Stated(truth.measured), {});
   EXPECT_EQ(last->best.robot.quaternion_shift, 3);
   EXPECT_EQ(last->best.changes, 1);
-  const auto first = TryConventions(AsTheyAre(scalar_first), {truth.measured}, {});
+  const auto first = TryConventions(AsTheyAre(scalar_first), Stated(truth.measured), {});
   EXPECT_EQ(first->best.robot.quaternion_shift, 1);
   EXPECT_EQ(first->best.changes, 1);
   for (const auto& found : {sense, last, first}) EXPECT_GT(found->gain, kClearGain);
@@ -151,21 +167,23 @@ TEST_F(ConventionsTest, LeaveTheRightOneAlone) {
   for (int repeat = 0; repeat < 30; ++repeat) {
     const Truth truth(random, 12, repeat % 2 == 0 ? 0.2 : 0.01);
     const auto found =
-        TryConventions(ByOrder(truth.vectors, "xyz"), {truth.measured}, Order("xyz"));
+        TryConventions(ByOrder(truth.vectors, "xyz"), Stated(truth.measured), Order("xyz"));
     EXPECT_LT(found->gain, kClearGain) << repeat;
   }
   Truth exact(random, 20);
   for (std::size_t i = 0; i < exact.poses.size(); ++i) exact.measured[i] = exact.poses[i];
-  EXPECT_LT(TryConventions(ByOrder(exact.vectors, "xyz"), {exact.measured}, Order("xyz"))->gain,
-            kClearGain);
+  EXPECT_LT(
+      TryConventions(ByOrder(exact.vectors, "xyz"), Stated(exact.measured), Order("xyz"))->gain,
+      kClearGain);
 }
 
 TEST_F(ConventionsTest, SayNothingOfTooFewPosesAndLookAtFewOfMany) {
   Truth truth(random, 8);
   for (std::size_t i = 0; i < 3; ++i) truth.measured[i].reset();
-  EXPECT_FALSE(TryConventions(ByOrder(truth.vectors, "xyz"), {truth.measured}, Order("xyz")));
+  EXPECT_FALSE(TryConventions(ByOrder(truth.vectors, "xyz"), Stated(truth.measured), Order("xyz")));
   const Truth many(random, 2000);
-  const auto found = TryConventions(ByOrder(many.vectors, "zyx"), {many.measured}, Order("zyx"));
+  const auto found =
+      TryConventions(ByOrder(many.vectors, "zyx"), Stated(many.measured), Order("zyx"));
   EXPECT_EQ(found->best.robot.order, "xyz");
 }
 

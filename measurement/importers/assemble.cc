@@ -7,6 +7,7 @@
 #include <unordered_set>
 
 #include "config/units.h"
+#include "geometry/quaternion_order.h"
 #include "measurement/importers/body_shape.h"
 #include "measurement/importers/pairing.h"
 #include "measurement/importers/tracked_side.h"
@@ -101,10 +102,19 @@ Measurement::Kind ChooseKind(const Recording& first,
                    "three markers");
 }
 
-std::optional<Pose3d> PoseOf(const TrackedSide& side, std::size_t row, bool inverse) {
+Eigen::Quaterniond OtherScalar(const Eigen::Quaterniond& q, RecordedBody::Scalar taken) {
+  if (taken == RecordedBody::Scalar::kNamed) return q;
+  return Shifted(q, taken == RecordedBody::Scalar::kFirst ? 3 : 1);
+}
+
+std::optional<Pose3d> PoseOf(const TrackedSide& side,
+                             std::size_t row,
+                             const AssembleOptions& options) {
   if (side.is_tracker) return Pose3d{};
-  const std::optional<Pose3d>& pose = side.body->poses[row];
-  return pose && inverse ? pose->Inverse() : pose;
+  std::optional<Pose3d> pose = side.body->poses[row];
+  if (pose && options.measured_other_scalar)
+    pose->rotation = OtherScalar(pose->rotation, side.body->scalar);
+  return pose && options.measured_inverse ? pose->Inverse() : pose;
 }
 
 // Of readings of one pose: of their positions, and of their rotations for small scatter.
@@ -127,10 +137,8 @@ void FillPoses(const Sides& sides,
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     std::vector<Pose3d> seen;
     for (const TrackerRow& at : pairs[i]) {
-      const std::optional<Pose3d> base =
-          PoseOf(sides[at.file][0], at.row, options.measured_inverse);
-      const std::optional<Pose3d> tool =
-          PoseOf(sides[at.file][1], at.row, options.measured_inverse);
+      const std::optional<Pose3d> base = PoseOf(sides[at.file][0], at.row, options);
+      const std::optional<Pose3d> tool = PoseOf(sides[at.file][1], at.row, options);
       if (base && tool) seen.push_back(base->Inverse() * *tool);
     }
     if (!seen.empty()) measurement.poses.push_back({static_cast<int>(i), MeanPose(seen)});

@@ -34,6 +34,9 @@ struct AssembleOptions {
   bool robot_inverse = false;          // the robot's file states platform_from_base
   bool measured_inverse = false;       // the tracker's file states body_from_recording
   bool static_tracker = false;
+  // kPoses, as a trial: the scalar of the tracker's quaternions at the other end, where the file
+  // does not say at which it is.
+  bool measured_other_scalar = false;
 };
 
 // The dataset and what was made of the files, in words, for its comments and for the screen.

@@ -97,6 +97,8 @@ class Columns {
       recording_.bodies.push_back({body.name, {}, {}});
       if (body.kind == MappedBody::Rotation::kAngles)
         recording_.bodies.back().rotation_order = body.order;
+      if (body.kind == MappedBody::Rotation::kQuaternion)
+        recording_.bodies.back().scalar = RecordedBody::Scalar::kFirst;
       for (const std::string& name : body.markers)
         for (std::size_t m = 0; m < map_.markers.size(); ++m)
           if (map_.markers[m].name == name)

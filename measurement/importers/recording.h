@@ -30,6 +30,8 @@ struct RecordedBody {
   std::vector<std::optional<Vector6d>> vectors{};
   std::string rotation_order{};
   std::vector<int> markers{};  // indices into Recording::markers
+  // Where the scalar of its quaternions was taken to stand, and nothing in the file says so.
+  enum class Scalar { kNamed, kFirst, kLast } scalar = Scalar::kNamed;
 };
 
 // What one file of another program holds, in SI. Nothing is said yet of which body is which.

@@ -34,10 +34,11 @@ void AddRow(const DelimitedReader& reader,
   ++recording.rows;
 }
 
-Recording Started(const std::string& path, const char* reading) {
+Recording Started(const std::string& path, RecordedBody::Scalar scalar, const char* reading) {
   Recording recording;
   recording.path = path;
   recording.bodies.push_back({"trajectory", {}, {}});
+  recording.bodies.back().scalar = scalar;
   recording.reading = reading;
   return recording;
 }
@@ -52,7 +53,7 @@ Recording ReadTum(const std::string& path, const ImportOptions&) {
   constexpr const char* kExpected =
       "a TUM trajectory: rows of 8 numbers between blanks, seconds x y z qx qy qz qw";
   DelimitedReader reader(path);
-  Recording recording = Started(path, "m, quaternions scalar last");
+  Recording recording = Started(path, RecordedBody::Scalar::kLast, "m, quaternions scalar last");
   while (reader.Next()) {
     const std::string_view line = Trimmed(reader.Line());
     if (line.empty() || line.front() == '#') continue;
@@ -69,7 +70,7 @@ Recording ReadEuroc(const std::string& path, const ImportOptions&) {
       "an EuRoC trajectory: a line '#timestamp, ...', then rows of nanoseconds,x,y,z,qw,qx,qy,qz "
       "and more";
   DelimitedReader reader(path);
-  Recording recording = Started(path, "m, quaternions scalar first");
+  Recording recording = Started(path, RecordedBody::Scalar::kFirst, "m, quaternions scalar first");
   if (!reader.Next()) throw InputError(reader.File(), "an empty file", kExpected);
   if (Trimmed(reader.Line()).substr(0, 1) != "#")
     throw InputError(reader.Where(), Quoted(Trimmed(reader.Line())), kExpected);
