@@ -21,6 +21,10 @@ Eigen::Vector3d CheckedDirection(const Eigen::Vector3d& direction,
                                  const Location& where,
                                  std::string_view what);
 
+// No tracker or robot states more than this, m, but some have such numbers for what they did not
+// see; squares of them leave the range of numbers.
+inline constexpr double kLongestLength = 1e6;
+
 // Whether points (3 x n) lie on one line, or in one place, to a thousandth of their extent.
 bool AreCollinear(const Eigen::Matrix3Xd& points);
 

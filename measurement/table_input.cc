@@ -9,12 +9,11 @@
 #include <unordered_set>
 
 #include "config/nearest_word.h"
+#include "measurement/checked_values.h"
 #include "measurement/labels.h"
 
 namespace hexcal {
 namespace {
-
-constexpr double kLongest = 1e6;  // m
 
 namespace fs = std::filesystem;
 
@@ -95,7 +94,7 @@ void CheckColumns(const TableReader& table,
 
 double ReadLength(const TableReader& table, int column, const Units& units) {
   const double length = units.length * table.Number(column);
-  if (std::abs(length) <= kLongest) return length;
+  if (std::abs(length) <= kLongestLength) return length;
   throw InputError(table.CellLocation(column),
                    fmt::format("{} in column '{}'",
                                Quoted(table.Text(column)),

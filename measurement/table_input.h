@@ -36,8 +36,7 @@ void CheckColumns(const TableReader& table,
                   const std::vector<std::string_view>& optional,
                   std::string_view expected);
 
-// The cell's length in m. InputError beyond 1000 km: no tracker or robot states that, but some have
-// such numbers for what they did not see, and squares of them leave the range of numbers.
+// The cell's length in m. InputError beyond kLongestLength.
 double ReadLength(const TableReader& table, int column, const Units& units);
 
 }  // namespace hexcal

@@ -129,6 +129,57 @@ TEST_F(Assembling, InvertsWhatIsStatedTheOtherWayRound) {
   EXPECT_TRUE(PoseNear(Make().measurement->poses[1].world_from_tool, tool, kClose, kClose));
 }
 
+// By the number of the frame where the file has it, else by time; by label only where each row is a
+// pose of its own.
+TEST_F(Assembling, WarnsOfRowsThatAreThereTwice) {
+  EXPECT_THAT(Make().warnings, ::testing::IsEmpty());
+  tracker.lines = {5, 6, 7, 8};
+  tracker.times[2] = tracker.times[1];
+  EXPECT_THAT(Make().warnings,
+              ElementsAre("tracker: line 7 has the time of line 6: is a reading there twice?"));
+  tracker.frames = {1, 2, 3, 4};
+  EXPECT_THAT(Make().warnings, ::testing::IsEmpty());
+  tracker.frames = {17, 2, 17, 17};
+  tracker.labels = {"a", "b", "c", "b"};
+  const char* frames =
+      "tracker: line 7 has the frame number 17 of line 5, another row that of an earlier one: is a "
+      "reading there twice?";
+  EXPECT_THAT(Make().warnings, ElementsAre(frames));
+  robot.labels = tracker.labels;
+  robot.labels[3] = "d";
+  for (const Pairing pairing : {Pairing::kTime, Pairing::kLabels, Pairing::kRows}) {
+    options.pairing = pairing;
+    options.window = 10.0;
+    EXPECT_THAT(Make().warnings, ElementsAre(frames)) << static_cast<int>(pairing);
+  }
+  tracker.frames.clear();
+  tracker.times.clear();
+  EXPECT_THAT(
+      Make().warnings,
+      ElementsAre("tracker: line 8 has the label 'b' of line 6: is a reading there twice?"));
+  options.pairing = Pairing::kLabels;
+  EXPECT_THAT(Make().warnings, ::testing::IsEmpty());
+}
+
+// In a body that is used, with the line where there is one.
+TEST_F(Assembling, RefusesWhatIsAbsurdlyFarAway) {
+  tracker.markers.push_back(
+      {"other", std::vector<std::optional<Vector>>(kRows, Vector(1e25, 0, 0))});
+  EXPECT_EQ(Error(), "(no exception)");
+  tracker.markers[5].points[2] = Vector(0.0, -1e25, 0.0);
+  const char* expected =
+      "expected a length of at most 1000 km (--missing_value=X says what stands for not seen)";
+  EXPECT_EQ(Error(),
+            std::string("tracker: found a coordinate of '2' of 1e+25 m in row 3, ") + expected);
+  tracker.lines = {5, 6, 7, 8};
+  EXPECT_EQ(Error(), std::string("tracker:7: found a coordinate of '2' of 1e+25 m, ") + expected);
+  tracker.bodies[1].poses[1]->translation.z() = 1.1e6;
+  EXPECT_THAT(Error(), HasSubstr("tracker:6: found a coordinate of 'probe' of 1.1e+06 m"));
+  robot.lines = {1, 2, 3, 4};
+  robot.bodies[0].poses[3]->translation.x() = -1e7;
+  EXPECT_THAT(Error(), HasSubstr("robot:4: found a coordinate of 'robot' of 1e+07 m"));
+}
+
 TEST_F(Assembling, TakesThreeMarkersByNameWithTheirOwnFrame) {
   tracker.bodies.clear();
   for (int m = 0; m < 8; ++m) tracker.markers[m].name = std::string(1, static_cast<char>('A' + m));

@@ -58,6 +58,7 @@ TEST(FirstPrinciples, ReadsMarkersAndEmptyCells) {
   EXPECT_EQ(read.markers[1].name, "Beam2");
   EXPECT_TRUE(MatrixNear(
       *read.markers[0].points[0], Vector(0.48661895752, -0.560735656738, -2.618344970703), kExact));
+  EXPECT_THAT(read.frames, ElementsAre(1, 2, 3));
   EXPECT_FALSE(read.markers[1].points[1]);
   EXPECT_TRUE(read.markers[1].points[2]);
   EXPECT_THAT(read.times, ElementsAre(20000000, 40000000, 60000000));
@@ -177,6 +178,7 @@ TEST(Motive, ReadsBodiesAndTheirMarkers) {
       *read.bodies[0].poses[0], {Vector(0.01, 0.02, 0.03), Quarter().rotation}, kExact, kDigits));
   EXPECT_FALSE(read.bodies[0].poses[1]);
   EXPECT_THAT(read.times, ElementsAre(0, 8333000));
+  EXPECT_THAT(read.frames, ElementsAre(0, 1));
   EXPECT_THAT(read.warnings, Contains(HasSubstr("1 rigid body markers are not used")));
 }
 

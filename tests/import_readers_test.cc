@@ -62,6 +62,8 @@ TEST(NdiCsv, ReadsToolsMarkersAndTimes) {
   EXPECT_THAT(read.bodies[0].markers, ElementsAre(0, 1, 2));
   EXPECT_THAT(read.bodies[1].markers, ElementsAre(3, 4, 5, 6));
 
+  EXPECT_THAT(read.frames, ElementsAre(650512279, 650512285, 650512291));
+
   const RecordedBody& frame = read.bodies[1];
   EXPECT_TRUE(MatrixNear(frame.poses[0]->translation, Vector(0.1, 0.2, -1.5), kExact));
   // Scalar first: half a turn about x, and a quarter about y.

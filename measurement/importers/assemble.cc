@@ -10,6 +10,7 @@
 #include "geometry/quaternion_order.h"
 #include "measurement/importers/body_shape.h"
 #include "measurement/importers/pairing.h"
+#include "measurement/importers/repeated_rows.h"
 #include "measurement/importers/tracked_side.h"
 #include "measurement/labels.h"
 
@@ -46,6 +47,7 @@ RobotPoses MakeRobotPoses(const Recording& robot, const AssembleOptions& options
                        fmt::format("the label {} a second time", Quoted(label)),
                        "each once");
     const Pose3d& pose = *body.poses[i];
+    CheckPlace(robot, i, body.name, pose.translation);
     poses.rows.push_back({label, options.robot_inverse ? pose.Inverse() : pose, {}, line});
   }
   return poses;
@@ -197,6 +199,7 @@ Sides ChooseSides(const std::vector<Recording>& tracker, const AssembleOptions& 
     sides.push_back(
         {ChooseSide(recording, options.base, true), ChooseSide(recording, options.tool, false)});
     RefuseShared(recording, sides.back()[0], sides.back()[1]);
+    for (const TrackedSide& side : sides.back()) CheckPlaces(recording, side);
     for (std::size_t body = 0; body < 2; ++body) {
       const TrackedSide &first = sides.front()[body], &here = sides.back()[body];
       if (here.markers.size() != first.markers.size() ||
@@ -246,6 +249,13 @@ Measurement MakeMeasurement(const std::vector<Recording>& tracker,
   return measurement;
 }
 
+void AddRepeats(const Recording& recording,
+                bool labels_differ,
+                std::vector<std::string>& warnings) {
+  std::string warning = RepeatedRows(recording, labels_differ);
+  if (!warning.empty()) warnings.push_back(std::move(warning));
+}
+
 std::string Described(const Recording& recording) {
   return fmt::format("{}, {} rows ({})", recording.path, recording.rows, recording.reading);
 }
@@ -266,6 +276,9 @@ Assembled Assemble(const Recording& robot,
   for (const Recording& recording : tracker)
     dataset.warnings.insert(
         dataset.warnings.end(), recording.warnings.begin(), recording.warnings.end());
+  const bool labels_differ = options.pairing == Pairing::kRows && options.frames == 1;
+  AddRepeats(robot, labels_differ, dataset.warnings);
+  for (const Recording& recording : tracker) AddRepeats(recording, labels_differ, dataset.warnings);
   const Sides sides = ChooseSides(tracker, options);
   const Pairs pairs = PairRows(robot, tracker, options);
   AddTimes(robot, tracker, pairs, options, dataset.robot_poses);

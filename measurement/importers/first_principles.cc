@@ -123,6 +123,7 @@ class FirstPrinciples {
     const std::optional<std::int64_t> time = Nanoseconds(reader_.Number(0) / frequency_);
     if (!time) throw InputError(reader_.At(0), Quoted(reader_.Text(0)), "the number of a frame");
     recording_.times.push_back(*time);
+    recording_.frames.push_back(reader_.Number(0));
     for (std::size_t m = 0; m < recording_.markers.size(); ++m)
       recording_.markers[m].points.push_back(reader_.Point(1 + 3 * m, scale_, missing_value_));
     recording_.lines.push_back(reader_.LineNumber());

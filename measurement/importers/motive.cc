@@ -193,6 +193,7 @@ class Motive {
     CheckReadings(
         recording_.rows, recording_.bodies.size() + recording_.markers.size(), reader_.Where());
     recording_.times.push_back(reader_.Seconds(1));
+    recording_.frames.push_back(reader_.Number(0));
     recording_.lines.push_back(reader_.LineNumber());
     for (std::size_t m = 0; m < marker_columns_.size(); ++m)
       recording_.markers[m].points.push_back(

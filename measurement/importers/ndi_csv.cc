@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "config/number.h"
 #include "measurement/checked_values.h"
 #include "measurement/importers/delimited_reader.h"
 #include "measurement/labels.h"
@@ -56,6 +57,7 @@ class NdiCsv {
                       count == 1 ? "1 tool" : fmt::format("{} tools", count),
                       count == 1 ? "its" : "their",
                       state));
+    if (recording_.frames.size() != recording_.rows) recording_.frames.clear();
     WarnOfZeros(recording_);
     recording_.reading = "mm, quaternions scalar first";
     return std::move(recording_);
@@ -164,6 +166,7 @@ class NdiCsv {
     for (RecordedMarker& marker : recording_.markers) marker.points.emplace_back();
     std::vector<bool> is_read(blocks_.size(), false);
     std::optional<std::int64_t> time;
+    std::optional<double> frame;
     std::size_t column = 1;
     long tools = 0;
     for (; column < reader_.size(); ++tools) {
@@ -175,6 +178,8 @@ class NdiCsv {
       RequireCells(column, block);
       if (!time && block.Has("time [sec]"))
         time = reader_.Seconds(column + block.columns.at("time [sec]"));
+      if (!frame && block.Has("frame"))
+        frame = ParseDouble(reader_.Text(column + block.columns.at("frame")));
       ReadTool(column, block, recording_.bodies[b]);
       column += block.width;
     }
@@ -183,6 +188,7 @@ class NdiCsv {
                        fmt::format("Tools = {}", reader_.Text(0)),
                        fmt::format("{}, as many as there are in the row", tools));
     if (time) recording_.times.push_back(*time);
+    if (frame) recording_.frames.push_back(*frame);
     recording_.lines.push_back(reader_.LineNumber());
     ++recording_.rows;
     if (!recording_.times.empty() && recording_.times.size() != recording_.rows)

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "measurement/checked_values.h"
+#include "measurement/labels.h"
+
 namespace hexcal {
 
 void CheckReadings(std::size_t rows, std::size_t readings_a_row, const Location& where) {
@@ -10,6 +13,21 @@ void CheckReadings(std::size_t rows, std::size_t readings_a_row, const Location&
   throw InputError(where,
                    fmt::format("row {} of {} points and poses each", rows, readings_a_row),
                    fmt::format("at most {} points and poses in a file", kMostImportReadings));
+}
+
+void CheckPlace(const Recording& recording,
+                std::size_t row,
+                std::string_view name,
+                const Eigen::Vector3d& place) {
+  const double largest = place.cwiseAbs().maxCoeff();
+  if (largest <= kLongestLength) return;
+  throw InputError(
+      {FileLocation(recording.path).file, recording.lines.empty() ? 0 : recording.lines[row], 0},
+      fmt::format("a coordinate of {} of {:.3g} m{}",
+                  Quoted(name),
+                  largest,
+                  recording.lines.empty() ? fmt::format(" in row {}", row + 1) : ""),
+      "a length of at most 1000 km (--missing_value=X says what stands for not seen)");
 }
 
 void WarnOfZeros(Recording& recording) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -38,6 +39,7 @@ struct RecordedBody {
 struct Recording {
   std::string path;
   std::size_t rows = 0;
+  std::vector<double> frames{};       // the tracker's number of each row; empty: the file has none
   std::vector<std::int64_t> times{};  // ns, one a row; empty: the file has none
   // Begin and end of the rows, ns, where each is a stretch of time (stops.h); else empty.
   std::vector<std::pair<std::int64_t, std::int64_t>> spans{};
@@ -78,6 +80,12 @@ inline constexpr std::size_t kMostImportReadings = 20'000'000;
 
 // InputError where rows of so many points and poses are too many.
 void CheckReadings(std::size_t rows, std::size_t readings_a_row, const Location& where);
+
+// InputError, with the row's line, where a coordinate of what is called so is beyond 1000 km.
+void CheckPlace(const Recording& recording,
+                std::size_t row,
+                std::string_view name,
+                const Eigen::Vector3d& place);
 
 // A warning for points that are exactly zero, which no tracker sees.
 void WarnOfZeros(Recording& recording);

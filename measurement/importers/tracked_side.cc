@@ -97,6 +97,17 @@ TrackedSide ChooseSide(const Recording& recording, const std::string& wanted, bo
   }
 }
 
+void CheckPlaces(const Recording& recording, const TrackedSide& side) {
+  for (std::size_t row = 0; row < recording.rows; ++row) {
+    if (side.body != nullptr && side.body->poses[row])
+      CheckPlace(recording, row, side.body->name, side.body->poses[row]->translation);
+    for (const int index : side.markers) {
+      const RecordedMarker& marker = recording.markers[static_cast<std::size_t>(index)];
+      if (marker.points[row]) CheckPlace(recording, row, marker.name, *marker.points[row]);
+    }
+  }
+}
+
 std::string CleanLabel(std::string_view name) {
   std::string clean(Trimmed(name));
   for (char& c : clean)

@@ -22,6 +22,9 @@ struct TrackedSide {
 // tracker. InputError names the flag and what there is.
 TrackedSide ChooseSide(const Recording& recording, const std::string& wanted, bool is_base);
 
+// InputError where a body or marker of the side is absurdly far away: CheckPlace.
+void CheckPlaces(const Recording& recording, const TrackedSide& side);
+
 // A name as a table's cell can carry it.
 std::string CleanLabel(std::string_view name);
 
