@@ -19,6 +19,7 @@ namespace {
 using ::hexcal::testing::ProgramResult;
 using ::hexcal::testing::RunHexcal;
 using ::hexcal::testing::TemporaryFolder;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -131,8 +132,7 @@ TEST_F(CliImportSlips, SaysThatTheScalarOfTheTrackersQuaternionsIsAtTheOtherEnd)
                "bodies: {tool: {position: [2, 3, 4], quaternion: [5, 6, 7, 8]}}\n");
   const auto import = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "import");
-    arguments.insert(arguments.end(),
-                     {"--robot=robot.tum", "--robot_format=tum", "--pair=rows", "--out=mine"});
+    arguments.insert(arguments.end(), {"--robot=robot.tum", "--pair=rows", "--out=mine"});
     const ProgramResult imported = RunHexcal({arguments, folder.Path("")});
     EXPECT_EQ(imported.status, 0) << imported.err;
     return imported.out + imported.err;
@@ -147,8 +147,8 @@ TEST_F(CliImportSlips, SaysThatTheScalarOfTheTrackersQuaternionsIsAtTheOtherEnd)
                         "quaternion: w x y z)\n"));
   // Backwards as well.
   EXPECT_THAT(import({"tum", "first.tum", "--measured_inverse"}),
-              HasSubstr("with the scalar of the tracker's quaternions first, the tracker's poses "
-                        "as they are (no --measured_inverse); as well with"));
+              AllOf(HasSubstr("the scalar of the tracker's quaternions first"),
+                    HasSubstr("which it is no data can tell")));
 }
 
 }  // namespace

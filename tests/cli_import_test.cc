@@ -157,7 +157,6 @@ TEST_F(CliImport, TakesTrajectoriesPairedByTimeAndAFirstGuess) {
   const ProgramResult imported = Import({"tum",
                                          "tracker.tum",
                                          "--robot=robot.tum",
-                                         "--robot_format=tum",
                                          "--pair=time",
                                          "--time_offset=1000.25",
                                          "--initial=base.yaml",

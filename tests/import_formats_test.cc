@@ -209,6 +209,27 @@ TEST(Trajectories, ReadTumAndEuroc) {
   }
 }
 
+TEST(Trajectories, ATumFileIsKnownByItsFirstRow) {
+  const TemporaryFolder folder;
+  const auto recognised = [&](const std::string& text) {
+    const ImportFormat* format = RecogniseFormat(folder.Write("in", text));
+    return format == nullptr ? "" : std::string(format->name);
+  };
+  EXPECT_EQ(recognised(ImportText("trajectory.tum")), "tum");
+  EXPECT_EQ(recognised("# seconds\r\n\r\n 0\t1 2 3  0 0 0 1 \r\n"), "tum");
+  EXPECT_EQ(recognised("\xEF\xBB\xBF"
+                       "0 1 2 3 0 0.6 0.8 0"),
+            "tum");
+  for (const char* other : {"",
+                            "# nothing\n",
+                            "0 1 2 3 0 0 0 1 0\n",
+                            "0 1 2 3 0 0 1\n",
+                            "0 1 2 3 0 0 0.9 0\n",
+                            "0,1,2,3,0,0,0,1\n",
+                            "a 1 2 3 0 0 0 1\n"})
+    EXPECT_EQ(recognised(other), "") << other;
+}
+
 TEST(Trajectories, RefuseWhatTheyAreNot) {
   const Spoilt tum{"tum", ImportText("trajectory.tum")};
   EXPECT_THAT(tum(" 0.25 ", " "), StartsWith("in:2: found 7 cells, expected 8"));

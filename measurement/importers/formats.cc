@@ -100,7 +100,7 @@ const std::vector<ImportFormat>& ImportFormats() {
        &IsMotive,
        &ReadMotive},
       {"c3d", "C3D, binary, Intel byte order: markers", false, &IsC3d, &ReadC3d},
-      {"tum", "TUM trajectory: poses over time", false, nullptr, &ReadTum},
+      {"tum", "TUM trajectory: poses over time", false, &IsTum, &ReadTum},
       {"euroc", "EuRoC trajectory, CSV: poses over time", false, &IsEuroc, &ReadEuroc},
       {"pi_gcs",
        "Physik Instrumente GCS array: the poses of a hexapod",

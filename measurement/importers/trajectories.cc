@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "config/number.h"
 #include "measurement/checked_values.h"
 #include "measurement/importers/delimited_reader.h"
@@ -47,7 +50,34 @@ void RequireRows(const Recording& recording, std::string_view expected) {
   if (recording.rows == 0) throw InputError(FileLocation(recording.path), "no rows", expected);
 }
 
+// The first line that is neither empty nor a comment.
+std::string_view FirstRow(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t end = text.find_first_of("\r\n");
+    const std::string_view line = Trimmed(text.substr(0, end));
+    if (!line.empty() && line.front() != '#') return line;
+    if (end == std::string_view::npos) break;
+    text.remove_prefix(end + 1);
+  }
+  return {};
+}
+
 }  // namespace
+
+bool IsTum(std::string_view beginning) {
+  constexpr double kTolerance = 1e-3;
+  std::string_view row = FirstRow(beginning);
+  Eigen::Matrix<double, kPoseCells, 1> numbers;
+  std::size_t count = 0;
+  for (; !row.empty(); ++count) {
+    const std::size_t end = std::min(row.find_first_of(" \t"), row.size());
+    const std::optional<double> number = ParseDouble(row.substr(0, end));
+    if (!number || count == kPoseCells) return false;
+    numbers[static_cast<Eigen::Index>(count)] = *number;
+    row = Trimmed(row.substr(end));
+  }
+  return count == kPoseCells && std::abs(numbers.tail<4>().norm() - 1.0) <= kTolerance;
+}
 
 Recording ReadTum(const std::string& path, const ImportOptions&) {
   constexpr const char* kExpected =
