@@ -106,7 +106,8 @@ std::string DefaultText(const FlagSpec& spec) {
 std::string ExpectedText(const FlagSpec& spec) {
   if (IsSwitch(spec)) return "true or false";
   if (!spec.choices.empty()) return JoinChoices(spec.choices);
-  if (!IsNumber(spec)) return "a path";
+  if (!IsNumber(spec))
+    return spec.value == "NAME" ? "a name" : spec.value == "TEXT" ? "a text" : "a path";
   std::string text = IsWholeNumber(spec) ? "a whole number" : "a number";
   text += fmt::format(spec.low_excluded ? " above {}" : " from {}", spec.low);
   if (std::isfinite(spec.high))

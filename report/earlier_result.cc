@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "config/strict_yaml.h"
 #include "geometry/covariance.h"
 
@@ -23,13 +26,36 @@ const YamlNode& Key(const YamlNode& map, std::string_view key) {
   throw InputError(map.where, fmt::format("no key '{}'", key), "a result.json of hexcal");
 }
 
+// The matrix says the same as position and quaternion, where it is there.
+void RequireSame(const YamlNode& matrix, const Pose3d& pose) {
+  constexpr double kTolerance = 1e-6;
+  Eigen::Matrix4d expected = Eigen::Matrix4d::Identity();
+  expected.topLeftCorner<3, 3>() = pose.rotation.toRotationMatrix();
+  expected.topRightCorner<3, 1>() = pose.translation;
+  const auto& rows = ReadSequence(matrix, "a matrix, 4 rows of 4 numbers");
+  if (rows.size() != 4) throw InputError(matrix.where, Describe(matrix), "4 rows of 4 numbers");
+  for (int i = 0; i < 4; ++i) {
+    const auto numbers = ReadNumbers(rows[static_cast<std::size_t>(i)], 4, "four numbers");
+    for (int j = 0; j < 4; ++j) {
+      const double found = numbers[static_cast<std::size_t>(j)];
+      if (std::abs(found - expected(i, j)) <= kTolerance * std::max(1.0, std::abs(expected(i, j))))
+        continue;
+      throw InputError(rows[static_cast<std::size_t>(i)].where,
+                       fmt::format("{} in row {} and column {} of the matrix", found, i + 1, j + 1),
+                       fmt::format("{}, as xyz and quaternion say", expected(i, j)));
+    }
+  }
+}
+
 Pose3d ReadMount(const YamlNode& node) {
   const auto xyz = ReadNumbers(Key(node, "xyz"), 3, "xyz, three numbers");
   const auto q = ReadNumbers(Key(node, "quaternion"), 4, "a quaternion, four numbers");
   const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
   if (!(std::abs(rotation.norm() - 1.0) < 1e-3))
     throw InputError(Key(node, "quaternion").where, "a quaternion of another length", "length one");
-  return {Eigen::Vector3d(xyz[0], xyz[1], xyz[2]), rotation.normalized()};
+  const Pose3d pose{Eigen::Vector3d(xyz[0], xyz[1], xyz[2]), rotation.normalized()};
+  if (const YamlNode* matrix = Find(node, "matrix")) RequireSame(*matrix, pose);
+  return pose;
 }
 
 // Of the poses that were used; nothing where the result does not say so of all of them.

@@ -252,6 +252,9 @@ TEST_F(CliExport, RefusesWhatItCannotUse) {
   EXPECT_THAT(Export("tum").err, HasSubstr("--dataset=FILE is missing"));
   EXPECT_EQ(Export("ros1", {"--tool_frame=\"/><evil x=\""}).status, 2);
   EXPECT_EQ(Export("ros1", {"--tool_frame=-x"}).status, 2);
+  const ProgramResult nameless = Export("ros1", {"--world_frame="});
+  EXPECT_EQ(nameless.status, 2);
+  EXPECT_THAT(nameless.err, HasSubstr("export: --world_frame: found '', expected a name\n"));
   const ProgramResult twice = Export("ros1", {"--base_frame=world"});
   EXPECT_EQ(twice.status, 2);
   EXPECT_THAT(twice.err, HasSubstr("--world_frame and --base_frame: found 'world' twice"));
@@ -274,6 +277,32 @@ TEST_F(CliExport, RefusesWhatItCannotUse) {
   EXPECT_EQ(Export("easy_handeye").status, 5);
   result_path = folder.Write("r.json", result.dump().substr(0, 1000));
   EXPECT_EQ(Export("ros1").status, 3);
+}
+
+// Each transform is there twice: who mended one by hand does not get the other.
+TEST_F(CliExport, RefusesATransformThatContradictsItsMatrix) {
+  for (const char* mount : {"world_from_base", "platform_from_tool"}) {
+    Json broken = result;
+    broken[mount]["xyz"][1] = 0.5;
+    const double stated = result[mount]["matrix"][1][3];
+    result_path = folder.Write("r.json", broken.dump(1));
+    const ProgramResult moved = Export("ros1");
+    EXPECT_EQ(moved.status, 3);
+    EXPECT_THAT(moved.err, HasSubstr(fmt::format("found {} in row 2 and column 4", stated)));
+    EXPECT_THAT(moved.err, HasSubstr("expected 0.5, as xyz and quaternion say"));
+    EXPECT_THAT(moved.err, ::testing::ContainsRegex("r.json:[0-9]+:"));
+    broken = result;
+    broken[mount]["quaternion"] = {1, 0, 0, 0};
+    result_path = folder.Write("r.json", broken.dump(1));
+    EXPECT_THAT(Export("ros1").err, HasSubstr("in row 1 and column 1 of the matrix, expected 1,"));
+    broken = result;
+    broken[mount]["matrix"].erase(3);
+    result_path = folder.Write("r.json", broken.dump(1));
+    EXPECT_THAT(Export("ros1").err, HasSubstr("expected 4 rows of 4 numbers"));
+    broken[mount].erase("matrix");
+    result_path = folder.Write("r.json", broken.dump(1));
+    EXPECT_EQ(Export("ros1").status, 0);
+  }
 }
 
 TEST_F(CliExport, HelpAndDocsNameEveryFormat) {
