@@ -42,11 +42,19 @@ std::string TextParameter(const std::string& name, char length, const std::strin
   return Record(1, name, std::string{-1, 2, length, count} + texts + '\0');
 }
 
+std::string CountParameter(const std::string& name, std::uint16_t count) {
+  std::string value(2, '\0');
+  Put(value, 0, count);
+  return Record(1, name, std::string{2, 0} + value + '\0');
+}
+
 struct C3dFile {
   float scale = -1.0f;  // below 0: floats
   std::string units = "mm";
   char processor = 84;
   std::uint16_t analog = 1;  // values a frame
+  std::string labels = "top  left ";
+  std::string more = {};  // parameters of POINT
 };
 
 std::string C3dBytes(const C3dFile& file) {
@@ -61,7 +69,7 @@ std::string C3dBytes(const C3dFile& file) {
   std::string parameters{1, 0x50, 1, file.processor};
   parameters += Record(-1, "POINT", std::string(1, '\0'));
   parameters += TextParameter("UNITS", 4, file.units + std::string(4 - file.units.size(), ' '));
-  parameters += TextParameter("labels", 5, "top  left ");
+  parameters += TextParameter("labels", 5, file.labels) + file.more;
   bytes.replace(kBlock, parameters.size(), parameters);
   // x y z residual of each point, then the analog value.
   const double frames[2][9] = {{100, 200, 300, 0, -1, -2, -3, 2, 7},
@@ -98,6 +106,33 @@ TEST(C3d, ReadsFloatsAndWholeNumbers) {
   metres.units = "m";
   EXPECT_TRUE(MatrixNear(
       *ReadImportText("c3d", C3dBytes(metres)).markers[0].points[0], Vector(100, 200, 300), 1e-12));
+}
+
+// Header and parameters both say how many points and frames there are.
+TEST(C3d, HoldsTheParametersAgainstTheHeader) {
+  C3dFile file;
+  file.more = CountParameter("USED", 2) + CountParameter("FRAMES", 2);
+  EXPECT_THAT(ReadImportText("c3d", C3dBytes(file)).warnings, ::testing::IsEmpty());
+  file.more = CountParameter("USED", 3);
+  EXPECT_THAT(ImportError("c3d", C3dBytes(file)),
+              StartsWith("in: found at byte 2: 2 points in the header, 3 in POINT:USED"));
+  file.more = CountParameter("FRAMES", 65535);  // more than it can say
+  EXPECT_THAT(ReadImportText("c3d", C3dBytes(file)).warnings, ::testing::IsEmpty());
+  file.more = CountParameter("FRAMES", 5);
+  const Recording frames = ReadImportText("c3d", C3dBytes(file));
+  EXPECT_EQ(frames.rows, 2u);
+  EXPECT_THAT(frames.warnings,
+              ElementsAre(HasSubstr("2 frames by its header, where POINT:FRAMES says 5")));
+  std::string value(4, '\0');
+  Put(value, 0, 4.0f);  // as some programs write it
+  file.more = Record(1, "FRAMES", std::string{4, 0} + value + '\0');
+  EXPECT_THAT(ReadImportText("c3d", C3dBytes(file)).warnings,
+              ElementsAre(HasSubstr("POINT:FRAMES says 4")));
+  file = {};
+  file.labels = "top  ";
+  const Recording labels = ReadImportText("c3d", C3dBytes(file));
+  EXPECT_EQ(labels.markers[1].name, "point 2");
+  EXPECT_THAT(labels.warnings, ElementsAre(HasSubstr("of which POINT:LABELS names 1; the others")));
 }
 
 TEST(C3d, RefusesWhatItIsNot) {

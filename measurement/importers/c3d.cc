@@ -34,8 +34,10 @@ class C3d {
     ReadHeader();
     parameters_ = ReadC3dParameters(bytes_, static_cast<unsigned char>(bytes_[0]), file_);
     ReadUnits();
+    CheckPoints();
     NamePoints();
     CheckSize();
+    CheckFrames();
     for (std::size_t frame = 0; frame < frames_; ++frame) ReadFrame(frame);
     WarnOfZeros(recording_);
     recording_.reading = unit_;
@@ -81,12 +83,46 @@ class C3d {
     unit_ = unit;
   }
 
+  // What the header says of the size stands among the parameters, too.
+  std::optional<std::size_t> Count(const std::string& name) const {
+    const C3dParameter* parameter = Find(name);
+    return parameter == nullptr ? std::nullopt : C3dCount(*parameter);
+  }
+
+  void CheckPoints() const {
+    const std::optional<std::size_t> used = Count("POINT:USED");
+    if (used && *used != points_)
+      RefuseC3d(file_,
+                2,
+                fmt::format("{} points in the header, {} in POINT:USED", points_, *used),
+                "the same number: else no place in the file is sure");
+  }
+
+  void CheckFrames() {
+    const std::optional<std::size_t> stated = Count("POINT:FRAMES");
+    if (stated && *stated != kUnknownLast && *stated != frames_)
+      recording_.warnings.push_back(
+          fmt::format("{}: {} frames by its header, where POINT:FRAMES says {}; as many as the "
+                      "header says are used",
+                      recording_.path,
+                      frames_,
+                      *stated));
+  }
+
   // Labels as far as they are text, else numbers.
   void NamePoints() {
     std::vector<std::string> labels;
     for (const char* name : {"POINT:LABELS", "POINT:LABELS2", "POINT:LABELS3"})
       if (const C3dParameter* parameter = Find(name))
         for (std::string& text : C3dTexts(*parameter)) labels.push_back(std::move(text));
+    if (!labels.empty() && labels.size() < points_)
+      recording_.warnings.push_back(
+          fmt::format("{}: {} points, of which POINT:LABELS names {}; the others go by their "
+                      "numbers, 'point {}' on",
+                      recording_.path,
+                      points_,
+                      labels.size(),
+                      labels.size() + 1));
     for (std::size_t p = 0; p < points_; ++p) {
       std::string name = p < labels.size() ? labels[p] : "";
       const bool is_text =

@@ -133,6 +133,14 @@ C3dParameters ReadC3dParameters(std::string_view bytes, std::size_t block, const
   return SectionReader(bytes, begin + 4, end, file).Read();
 }
 
+std::optional<std::size_t> C3dCount(const C3dParameter& parameter) {
+  if (parameter.type == 2 && parameter.data.size() >= 2) return Uint16At(parameter.data, 0);
+  if (parameter.type != 4 || parameter.data.size() < 4) return std::nullopt;
+  const float count = FloatAt(parameter.data, 0);
+  if (!(count >= 0.0f) || !(count < 1e9f)) return std::nullopt;
+  return static_cast<std::size_t>(count);
+}
+
 std::vector<std::string> C3dTexts(const C3dParameter& parameter) {
   std::vector<std::string> texts;
   if (parameter.type != -1 || parameter.dimensions.empty() || parameter.dimensions[0] == 0)

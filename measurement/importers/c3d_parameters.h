@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,9 @@ C3dParameters ReadC3dParameters(std::string_view bytes, std::size_t block, const
 
 // The texts of a list of labels, blanks at their ends cut off.
 std::vector<std::string> C3dTexts(const C3dParameter& parameter);
+
+// The first number of a parameter as a count, without a sign; nothing where it is none.
+std::optional<std::size_t> C3dCount(const C3dParameter& parameter);
 
 [[noreturn]] void RefuseC3d(const Location& file,
                             std::size_t byte,
