@@ -91,8 +91,7 @@ Chart MapChart(const PointReport& report) {
                                         fmt::format("{:.4g}", kMilli * map.y[j])};
       for (const double length : map.lengths[k][j])
         if (std::isfinite(length)) largest = std::max(largest, kMilli * length);
-      for (const double length : map.lengths[k][j])
-        texts.push_back(std::isfinite(length) ? fmt::format("{:.4f}", kMilli * length) : "–");
+      for (const double length : map.lengths[k][j]) texts.push_back(MilliText(length));
       chart.table.rows.push_back(texts);
     }
     chart.data.push_back({{"type", "heatmap"},
@@ -117,10 +116,11 @@ Chart MapChart(const PointReport& report) {
   Json scale = Json::array();
   scale.push_back(Json::array({0.0, "@middle"}));
   scale.push_back(Json::array({1.0, "@high"}));
-  chart.layout["coloraxis"] = {{"cmin", 0},  // which plotly heeds with a cmax alone
-                               {"cmax", largest > 0.0 ? largest : 1.0},
-                               {"colorscale", scale},
-                               {"colorbar", {{"title", {{"text", "mm"}}}, {"thickness", 12}}}};
+  chart.layout["coloraxis"] = {
+      {"cmin", 0},  // which plotly heeds with a cmax alone
+      {"cmax", largest > 0.0 ? largest : 1.0},
+      {"colorscale", scale},
+      {"colorbar", {{"title", {{"text", "mm"}}}, {"thickness", 12}, {"exponentformat", "power"}}}};
   return chart;
 }
 

@@ -47,8 +47,7 @@ void AddChange(const Audit& audit, HtmlPage* page) {
   page->Table(table);
   HtmlTable points = {{{"point, at the centre of the workspace"}, {"has moved, mm", true}}, {}};
   for (std::size_t i = 0; i < change.at_points.size(); ++i)
-    points.rows.push_back(
-        {audit.requirements.points[i].name, fmt::format("{:.4f}", 1e3 * change.at_points[i])});
+    points.rows.push_back({audit.requirements.points[i].name, MilliText(change.at_points[i])});
   page->Table(points);
 }
 

@@ -62,10 +62,10 @@ HtmlTable BodyTable(const Audit& audit) {
   for (const BodyReport& body : audit.bodies) {
     std::vector<std::string> row = {body.name,
                                     fmt::format("{}", body.markers),
-                                    fmt::format("{:.4f}", 1e3 * body.sigma),
-                                    fmt::format("{:.4f}", 1e3 * body.fiducial)};
+                                    MilliText(body.sigma),
+                                    MilliText(body.fiducial)};
     for (std::size_t i = 0; i < audit.requirements.points.size(); ++i)
-      row.push_back(body.at_points.empty() ? "" : fmt::format("{:.4f}", 1e3 * body.at_points[i]));
+      row.push_back(body.at_points.empty() ? "" : MilliText(body.at_points[i]));
     table.rows.push_back(row);
   }
   return table;

@@ -20,7 +20,7 @@ constexpr std::size_t kShortId = 12;  // of a report's number, at the foot of a 
 
 // Of each coordinate, mm.
 std::string DeviationText(const NamedPoint& point) {
-  if (!point.pivot) return fmt::format("{:.4f}", 1e3 * point.standard_deviation);
+  if (!point.pivot) return MilliText(point.standard_deviation);
   const Eigen::Vector3d sigma = 1e3 * point.pivot->covariance.diagonal().cwiseSqrt();
   return fmt::format("{:.4f}, {:.4f}, {:.4f} (pivoting)", sigma.x(), sigma.y(), sigma.z());
 }
@@ -58,8 +58,8 @@ void AddVerdict(const Audit& audit, HtmlPage* page) {
                           audit.requirements.points[d.requirement.point].name,
                           ShareText(d.requirement.probability),
                           fmt::format("{:.4g}", 1e3 * d.requirement.limit),
-                          is_known ? fmt::format("{:.4f}", 1e3 * d.value) : "–",
-                          is_known ? fmt::format("{:.4f}", 1e3 * d.guard) : "–"});
+                          is_known ? MilliText(d.value) : "–",
+                          is_known ? MilliText(d.guard) : "–"});
     if (is_known)
       places.push_back(fmt::format("{}: worst at {}", d.requirement.name, WordsOf(d.worst)));
   }
@@ -161,9 +161,9 @@ void AddMeasurand(const Audit& audit, HtmlPage* page) {
                       {}};
   for (const NamedPoint& point : audit.requirements.points)
     points.rows.push_back({point.name,
-                           fmt::format("{:.4f}", 1e3 * point.p_in_tool.x()),
-                           fmt::format("{:.4f}", 1e3 * point.p_in_tool.y()),
-                           fmt::format("{:.4f}", 1e3 * point.p_in_tool.z()),
+                           MilliText(point.p_in_tool.x()),
+                           MilliText(point.p_in_tool.y()),
+                           MilliText(point.p_in_tool.z()),
                            DeviationText(point)});
   page->Table(points);
 }

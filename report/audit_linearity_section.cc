@@ -7,6 +7,7 @@
 #include "report/audit_sections.h"
 #include "report/comparison_sections.h"
 #include "report/coverage.h"
+#include "report/quantity.h"
 
 namespace hexcal {
 namespace {
@@ -36,9 +37,8 @@ HtmlTable EstimateTable(const Audit& audit) {
   for (int i = 0; i < 12; ++i) {
     std::vector<std::string> row = {fmt::format("{} {}", i < 6 ? "base" : "tool", kNumbers[i % 6])};
     for (const BaseAndTool* mounts : solutions)
-      row.push_back(fmt::format("{:.4f}",
-                                1e3 * VectorFromPose(i < 6 ? mounts->world_from_base
-                                                           : mounts->platform_from_tool)[i % 6]));
+      row.push_back(MilliText(
+          VectorFromPose(i < 6 ? mounts->world_from_base : mounts->platform_from_tool)[i % 6]));
     table.rows.push_back(row);
   }
   return table;

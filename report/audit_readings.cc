@@ -59,10 +59,10 @@ HtmlTable WorstTable(const ReadingReport& readings) {
     const ReadingCheck& check = readings.worst_first[i];
     table.rows.push_back({readings.labels[check.item],
                           check.marker,
-                          fmt::format("{:.4f}", 1e3 * check.held_out.norm()),
+                          MilliText(check.held_out.norm()),
                           fmt::format("{:.2f}", std::sqrt(check.squared)),
                           ProbabilityText(check.p_value),
-                          fmt::format("{:.4f}", 1e3 * check.smallest),
+                          MilliText(check.smallest),
                           VerdictOf(readings, check)});
   }
   return table;
@@ -78,8 +78,8 @@ HtmlTable MarkerTable(const ReadingReport& readings) {
   for (const auto& [name, marker] : ByMarker(readings.search))
     table.rows.push_back({name,
                           fmt::format("{}", marker.smallest.size()),
-                          fmt::format("{:.4f}", 1e3 * marker.Median()),
-                          fmt::format("{:.4f}", 1e3 * marker.smallest.back()),
+                          MilliText(marker.Median()),
+                          MilliText(marker.smallest.back()),
                           fmt::format("{:.2f}", marker.redundancy)});
   return table;
 }

@@ -49,8 +49,8 @@ void AddAccuracy(const Audit& audit, HtmlPage* page) {
          {std::pair{"centre", &report.centre}, std::pair{"worst", &report.worst}})
       table.rows.push_back({report.point.name,
                             name,
-                            fmt::format("{:.4f}", 1e3 * at->rms),
-                            fmt::format("{:.4f}", 1e3 * at->length_95),
+                            MilliText(at->rms),
+                            MilliText(at->length_95),
                             CoverageFactorText(at->length_95, at->rms),
                             std::isfinite(at->degrees_of_freedom)
                                 ? fmt::format("{:.0f}", at->degrees_of_freedom)

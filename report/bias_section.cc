@@ -2,13 +2,12 @@
 #include <fmt/format.h>
 
 #include "report/audit_sections.h"
+#include "report/quantity.h"
 
 namespace hexcal {
 namespace {
 
 constexpr int kCycles = 30;  // of ISO 9283
-
-std::string Mm(double length) { return fmt::format("{:.4f}", 1e3 * length); }
 
 void AddRepeated(const Audit& audit, HtmlPage* page) {
   HtmlTable table = {{{"point"},
@@ -22,8 +21,8 @@ void AddRepeated(const Audit& audit, HtmlPage* page) {
       table.rows.push_back({report.point.name,
                             fmt::format("{}", repeated->poses),
                             fmt::format("{}", repeated->fewest),
-                            Mm(repeated->accuracy),
-                            Mm(repeated->repeatability)});
+                            MilliText(repeated->accuracy),
+                            MilliText(repeated->repeatability)});
   if (table.rows.empty())
     return page->Paragraph(
         "Pose accuracy and repeatability in the manner of ISO 9283 are not given: no reported pose "
@@ -54,10 +53,10 @@ void AddBias(const Audit& audit, HtmlPage* page) {
     for (int k = 0; k < 3; ++k)
       table.rows.push_back({k == 0 ? report.point.name : "",
                             std::string(1, "xyz"[k]),
-                            Mm(validation.bias[k]),
-                            Mm(u[k]),
-                            Mm(validation.precision[k]),
-                            k == 0 ? Mm(validation.rms) : ""});
+                            MilliText(validation.bias[k]),
+                            MilliText(u[k]),
+                            MilliText(validation.precision[k]),
+                            k == 0 ? MilliText(validation.rms) : ""});
   }
   page->Table(table);
   page->Note(

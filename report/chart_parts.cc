@@ -151,10 +151,11 @@ Json DivergingColours(double largest, const char* unit) {
   scale.push_back(Json::array({0.0, "@low"}));
   scale.push_back(Json::array({0.5, "@middle"}));
   scale.push_back(Json::array({1.0, "@high"}));
-  return {{"cmin", -end},
-          {"cmax", end},
-          {"colorscale", scale},
-          {"colorbar", {{"title", {{"text", unit}}}, {"thickness", 12}}}};
+  return {
+      {"cmin", -end},
+      {"cmax", end},
+      {"colorscale", scale},
+      {"colorbar", {{"title", {{"text", unit}}}, {"thickness", 12}, {"exponentformat", "power"}}}};
 }
 
 std::size_t StrideOf(std::size_t count) {

@@ -8,6 +8,7 @@
 
 #include "estimator/propagation_verdict.h"
 #include "report/estimate_charts.h"
+#include "report/quantity.h"
 
 namespace hexcal {
 
@@ -22,12 +23,11 @@ void AddMethods(const Comparison& comparison, HtmlPage* page) {
     double largest = 0.0;
     for (const double s : method.sigmas)
       if (std::isfinite(s)) largest = std::max(largest, std::abs(s));
-    table.rows.push_back(
-        {std::string(InfoOf(method.method).title),
-         fmt::format("{:.3g}", largest),
-         method.held_out ? fmt::format("{:.4f}", 1e3 * method.held_out->position) : "",
-         method.held_out ? fmt::format("{:.4f}", 1e3 * method.held_out->orientation) : "",
-         method.fit.converged ? "yes" : "no"});
+    table.rows.push_back({std::string(InfoOf(method.method).title),
+                          fmt::format("{:.3g}", largest),
+                          method.held_out ? MilliText(method.held_out->position) : "",
+                          method.held_out ? MilliText(method.held_out->orientation) : "",
+                          method.fit.converged ? "yes" : "no"});
   }
   page->Table(table);
   page->Note(fmt::format(

@@ -99,8 +99,8 @@ Chart StepChart(const Discovery& discovery) {
         chart.table.rows.push_back({fmt::format("{}", number),
                                     added,
                                     p,
-                                    fmt::format("{:.4f}", kMilli * size.rms_position),
-                                    fmt::format("{:.4f}", kMilli * size.rms_orientation),
+                                    MilliText(size.rms_position),
+                                    MilliText(size.rms_orientation),
                                     fmt::format("{:.1f}", size.chi_square),
                                     fmt::format("{}", size.degrees_of_freedom)});
       };

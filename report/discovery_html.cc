@@ -98,8 +98,8 @@ void AddGap(const Discovery& discovery, HtmlPage* page) {
     if (!IsKnown(size)) return;
     const bool has_test = size.degrees_of_freedom > 0;
     table.rows.push_back({what,
-                          fmt::format("{:.4f}", 1e3 * size.rms_position),
-                          fmt::format("{:.4f}", 1e3 * size.rms_orientation),
+                          MilliText(size.rms_position),
+                          MilliText(size.rms_orientation),
                           has_test ? fmt::format("{:.1f}", size.chi_square) : "",
                           has_test ? fmt::format("{}", size.degrees_of_freedom) : ""});
   };

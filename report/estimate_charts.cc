@@ -8,6 +8,7 @@
 
 #include "estimator/quantiles.h"
 #include "report/chart_parts.h"
+#include "report/quantity.h"
 #include "report/residual_charts.h"
 
 namespace hexcal {
@@ -93,8 +94,8 @@ Chart HeldOutChart(const std::vector<PoseCheck>& poses, const std::vector<bool>&
     values.push_back(pose.squared);
     chart.table.rows.push_back({pose.label,
                                 fmt::format("{:.2f}", pose.squared),
-                                fmt::format("{:.4f}", kMilli * pose.held_out.head<3>().norm()),
-                                fmt::format("{:.4f}", kMilli * pose.held_out.tail<3>().norm())});
+                                MilliText(pose.held_out.head<3>().norm()),
+                                MilliText(pose.held_out.tail<3>().norm())});
   }
   Json trace = DotTrace("poses", drawn.order, values, drawn.labels, false, 1);
   MarkLeftOut(drawn.Of(used), &trace);

@@ -38,12 +38,11 @@ HtmlTable MountTable(const Estimate& estimate, bool is_base) {
     const bool is_known = estimate.observability.determined[k];
     const double dof = estimate.intervals.degrees_of_freedom[k];
     const auto number = [&](double value) {
-      return is_known && std::isfinite(value) ? fmt::format("{:.4f}", 1e3 * value)
-                                              : "not determined";
+      return is_known && std::isfinite(value) ? MilliText(value) : "not determined";
     };
     table.rows.push_back(
         {kNumbers[i],
-         fmt::format("{:.4f}", 1e3 * values[i]),
+         MilliText(values[i]),
          number(sigmas[i]),
          number(std::sqrt(estimate.covariance(k, k))),
          number(estimate.intervals.half_width[k]),

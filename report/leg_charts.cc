@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "report/chart_parts.h"
+#include "report/quantity.h"
 #include "report/residual_charts.h"
 
 namespace hexcal {
@@ -80,7 +81,7 @@ void AddMap(const std::vector<Vector6d>& legs,
   }
   for (std::size_t k = 0; k < drawn.indices.size(); ++k)
     for (int leg = 0; leg < 6; ++leg)
-      chart->table.rows[k].push_back(fmt::format("{:.4f}", kMilli * legs[drawn.indices[k]][leg]));
+      chart->table.rows[k].push_back(MilliText(legs[drawn.indices[k]][leg]));
   chart->data.push_back({{"type", "heatmap"},
                          {"x", drawn.order},
                          {"y", names},

@@ -8,6 +8,7 @@
 
 #include "report/chart_parts.h"
 #include "report/html/escape.h"
+#include "report/quantity.h"
 
 namespace hexcal {
 namespace {
@@ -39,8 +40,8 @@ Chart RmsChart(const std::vector<MarkerLeftOver>& markers) {
     chart.table.rows.push_back(
         {marker.label,
          fmt::format("{}", marker.poses),
-         fmt::format("{:.4f}", kMilli * marker.rms),
-         fmt::format("{:.4f}", kMilli * marker.expected),
+         MilliText(marker.rms),
+         MilliText(marker.expected),
          marker.expected > 0.0 ? fmt::format("{:.2f}", marker.rms / marker.expected) : "-"});
   }
   chart.data = Json::array({{{"type", "bar"},
@@ -130,9 +131,8 @@ Chart ResidualChart(const std::vector<MarkerLeftOver>& markers) {
       squares += marker.residuals[i].cwiseAbs2() / marker.poses;
     }
     std::vector<std::string> row = {marker.label};
-    for (int k = 0; k < 3; ++k) row.push_back(fmt::format("{:.4f}", kMilli * mean[k]));
-    for (int k = 0; k < 3; ++k)
-      row.push_back(fmt::format("{:.4f}", kMilli * std::sqrt(squares[k])));
+    for (int k = 0; k < 3; ++k) row.push_back(MilliText(mean[k]));
+    for (int k = 0; k < 3; ++k) row.push_back(MilliText(std::sqrt(squares[k])));
     chart.table.rows.push_back(row);
   }
   return chart;

@@ -11,6 +11,7 @@
 #include "estimator/quantiles.h"
 #include "report/chart_parts.h"
 #include "report/html/escape.h"
+#include "report/quantity.h"
 #include "report/space_parts.h"
 
 namespace hexcal {
@@ -133,7 +134,7 @@ Chart PivotResidualChart(const PivotResult& result) {
   chart.table = {{{"reading"}, {"x, mm", true}, {"y, mm", true}, {"z, mm", true}, {""}}, {}};
   for (std::size_t i = 0; i < result.rows.size(); i += StrideOf(result.rows.size())) {
     std::vector<std::string> row = {result.rows[i].label};
-    for (const double x : result.rows[i].residual) row.push_back(fmt::format("{:.4f}", kMilli * x));
+    for (const double x : result.rows[i].residual) row.push_back(MilliText(x));
     row.emplace_back(UseOf(result.rows[i]));
     chart.table.rows.push_back(row);
   }

@@ -83,11 +83,11 @@ void AddPoint(const char* heading,
     const int row = first + k;
     const double dof = result.degrees_of_freedom[row];
     const auto number = [&](double value) {
-      return IsDetermined(result, row) ? fmt::format("{:.4f}", 1e3 * value) : "not determined";
+      return IsDetermined(result, row) ? MilliText(value) : "not determined";
     };
     table.rows.push_back(
         {std::string(1, "xyz"[k]),
-         fmt::format("{:.4f}", 1e3 * point[k]),
+         MilliText(point[k]),
          number(std::sqrt(result.covariance(row, row))),
          number(result.half_width[row]),
          CoverageFactorText(result.half_width[row], std::sqrt(result.covariance(row, row))),
@@ -128,7 +128,7 @@ void AddOutliers(const PivotResult& result, HtmlPage* page) {
     const PivotRow& row = result.rows[outlier.index];
     table.rows.push_back({row.label,
                           row.line > 0 ? fmt::format("{}", row.line) : "",
-                          fmt::format("{:.4f}", 1e3 * outlier.distance),
+                          MilliText(outlier.distance),
                           fmt::format("{:.1f}", outlier.sigmas),
                           ProbabilityText(outlier.p_value),
                           row.used ? "yes" : "left out"});

@@ -10,6 +10,8 @@
 namespace hexcal {
 namespace {
 
+// Of a length in m or an angle below this, nothing but the rounding of the numbers is left.
+constexpr double kRounding = 1e-13;
 constexpr std::string_view kNone = "–";
 
 struct Row {
@@ -57,10 +59,16 @@ std::string QuantityText(double value, double standard_deviation, std::string_vi
       display.name);
 }
 
+std::string MilliText(double value) {
+  constexpr double kFourDecimals = 1e-6;  // two digits of them or more
+  if (!std::isfinite(value)) return std::string(kNone);
+  if (std::abs(value) >= kFourDecimals) return fmt::format("{:.4f}", 1e3 * value);
+  return std::abs(value) < kRounding ? "0" : fmt::format("{:.3g}", 1e3 * value);
+}
+
 std::string SizeText(double value, std::string_view unit) {
   if (!std::isfinite(value)) return std::string(kNone);
-  // Of a length or an angle below this, nothing but the rounding of the numbers is left.
-  if ((unit == "m" || unit == "rad") && std::abs(value) < 1e-13) value = 0.0;
+  if ((unit == "m" || unit == "rad") && std::abs(value) < kRounding) value = 0.0;
   if (unit == "m" && std::abs(value) < 1e-4) return fmt::format("{:.3g} µm", 1e6 * value);
   if (unit == "rad" && std::abs(value) < 1e-4) return fmt::format("{:.3g} µrad", 1e6 * value);
   const DisplayUnit display = DisplayUnitOf(unit);

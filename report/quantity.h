@@ -19,6 +19,10 @@ DisplayUnit DisplayUnitOf(std::string_view unit);
 // "0.123 ± 0.004 mm" with two digits of the deviation, "0.1234 mm" where it is not known.
 std::string QuantityText(double value, double standard_deviation, std::string_view unit);
 
+// Of m or rad in thousandths, for a column of mm or mrad: four decimals, or three digits of what
+// would have none of them; "0" where nothing but rounding is left. A dash for no number.
+std::string MilliText(double value);
+
 // Four digits and a unit that suits the size: 4.2e-5 m is "42 µm". A dash for no number.
 std::string SizeText(double value, std::string_view unit);
 

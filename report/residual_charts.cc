@@ -7,6 +7,7 @@
 
 #include "report/chart_parts.h"
 #include "report/html/escape.h"
+#include "report/quantity.h"
 
 namespace hexcal {
 namespace {
@@ -96,7 +97,7 @@ HtmlTable TableOf(const PoseResiduals& residuals,
     std::vector<std::string> row = {residuals.labels[i], fmt::format("{:.5g}", against.values[i])};
     const auto numbers = [&](const std::vector<Vector6d>& errors) {
       for (int k = quantity.first; k < quantity.first + 3; ++k)
-        row.push_back(fmt::format("{:.4f}", kMilli * errors[i][k]));
+        row.push_back(MilliText(errors[i][k]));
     };
     if (residuals.before) numbers(residuals.before->error);
     numbers(residuals.after.error);

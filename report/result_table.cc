@@ -144,10 +144,12 @@ std::string ResultTable(const ResultHeader& header, const Estimate& estimate) {
   text += fmt::format("  {:<4}{:<36}{}\n", "", "base in world (T_B^W)", "tool on platform (T_T^A)");
   for (int i = 0; i < 6; ++i) {
     const char* unit = i < 3 ? "mm" : "mrad";
-    text += fmt::format("  {:<3}{} {}\n",
-                        kRowNames[i],
-                        ValueText(base.value[i], base.sigma[i], base.determined[i], unit),
-                        ValueText(tool.value[i], tool.sigma[i], tool.determined[i], unit));
+    const std::string row =
+        fmt::format("  {:<3}{} {}",
+                    kRowNames[i],
+                    ValueText(base.value[i], base.sigma[i], base.determined[i], unit),
+                    ValueText(tool.value[i], tool.sigma[i], tool.determined[i], unit));
+    text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
   }
   return text + "\n" + Summary(estimate) + OutlierLines(estimate);
 }

@@ -12,6 +12,7 @@
 #include "geometry/linear_algebra.h"
 #include "report/chart_parts.h"
 #include "report/html/escape.h"
+#include "report/quantity.h"
 #include "report/space_parts.h"
 
 namespace hexcal {
@@ -20,7 +21,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Points = std::vector<Eigen::Vector3d>;
 
-constexpr double kMilli = 1e3;
 constexpr double kTurn = 6.283185307179586;
 constexpr int kMeridians = 24, kCircles = 12;
 // The parts of the scene that the longest arrow and the ellipsoid are drawn at.
@@ -105,9 +105,9 @@ HtmlTable ArrowTable(const Scene& scene) {
       table.columns.push_back({axis, true});
   for (const Scene::Arrow& arrow : scene.arrows) {
     std::vector<std::string> row = {arrow.label};
-    for (const double x : arrow.along) row.push_back(fmt::format("{:.4f}", kMilli * x));
+    for (const double x : arrow.along) row.push_back(MilliText(x));
     if (arrow.before)
-      for (const double x : *arrow.before) row.push_back(fmt::format("{:.4f}", kMilli * x));
+      for (const double x : *arrow.before) row.push_back(MilliText(x));
     table.rows.push_back(row);
   }
   return table;

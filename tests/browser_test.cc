@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "report/chart_parts.h"
 #include "report/discovery_html.h"
 #include "report/discovery_json.h"
 #include "report/html/assets.h"
@@ -168,6 +169,24 @@ TEST_F(InBrowser, PicturesInSpaceAndFlatOnesStandOnOnePage) {
   EXPECT_EQ(Count(before_scripts, "class=\"plot js-plotly-plot\""), 2);
   EXPECT_THAT(before_scripts, AllOf(HasSubstr("<canvas"), Not(HasSubstr("no-webgl"))));
   ExpectQuiet(browser.Console());
+}
+
+// The title has the unit already: no mark "100µ" of mm, flat or beside a scale of colours.
+TEST_F(InBrowser, MarksOfSmallNumbersArePowersOfTen) {
+  if (FlatCharts().empty()) GTEST_SKIP() << "built without plotly.js";
+  HtmlPage page("test", "t", "s");
+  Chart chart;
+  chart.data = nlohmann::ordered_json::array(
+      {{{"x", {1, 2}},
+        {"y", {1e-4, 3e-4}},
+        {"mode", "markers"},
+        {"marker", {{"color", {-2e-4, 2e-4}}, {"coloraxis", "coloraxis"}}}}});
+  chart.layout = {{"yaxis", Axis("mm", false)}, {"coloraxis", DivergingColours(2e-4, "mm")}};
+  page.Figure(chart);
+  const std::string dom = Dom(page.Html());
+  EXPECT_EQ(Count(dom, "µ<") + Count(dom, "μ<"), 0);
+  for (const char* group : {"class=\"ytick\"", "class=\"cbaxis"})
+    EXPECT_THAT(dom.substr(dom.find(group)).substr(0, 4000), HasSubstr("×10")) << group;
 }
 
 // Two or more pictures on a page of pictures.

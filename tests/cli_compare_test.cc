@@ -16,6 +16,7 @@ namespace {
 using ::hexcal::testing::ProgramResult;
 using ::hexcal::testing::RunHexcal;
 using ::hexcal::testing::TemporaryFolder;
+using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -137,6 +138,17 @@ TEST_F(CliCompare, AReportIsWrittenWhereItIsAskedFor) {
   Make(kOneAxisRows);
   EXPECT_EQ(Compare({"--report"}).status, 4);
   EXPECT_THAT(folder.Read("out/demo/report.html"), HasSubstr("<strong>not certified</strong>"));
+}
+
+// Without noise, too, a held-out error is a number and not 0.0000.
+TEST_F(CliCompare, AReportOfDataWithoutNoiseCanBeRead) {
+  const std::string dataset = std::string(HEXCAL_EXAMPLES) + "/paper/dataset.yaml";
+  ASSERT_EQ(Call({"compare", dataset, "--out=out", "--starts=0", "--report"}).status, 0);
+  const std::string page = folder.Read("out/paper/report.html");
+  EXPECT_THAT(page, Not(HasSubstr(">0.0000<")));
+  EXPECT_THAT(page,
+              ContainsRegex("<td>Li</td><td class=\"number\">[^<]*</td>"
+                            "<td class=\"number\">[0-9.]+e-[0-9]+</td>"));
 }
 
 TEST_F(CliCompare, PrintsTheSameAsJsonOrNothing) {

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "geometry/rotation_angles.h"
+#include "report/quantity.h"
 #include "report/result_json.h"
 #include "report/result_table.h"
 #include "testing/matchers.h"
@@ -173,6 +175,25 @@ TEST(ResultTable, IsInMillimetresAndMilliradiansWithTheSigmaOfEachNumber) {
   EXPECT_THAT(table, HasSubstr("1.1 mm and 2.2 mrad a coordinate, estimated"));
   EXPECT_THAT(table, HasSubstr("270 with 120 degrees of freedom (noise scale 1.500)"));
   EXPECT_THAT(table, Not(HasSubstr("undetermined")));
+}
+
+// Nor where a word stands in place of the last number.
+TEST(ResultTable, HasNoBlanksAtTheEndsOfLines) {
+  Estimate e = MakeEstimate();
+  EXPECT_THAT(ResultTable(kHeader, e), Not(HasSubstr(" \n")));
+  e.observability.determined.fill(false);
+  EXPECT_THAT(ResultTable(kHeader, e), Not(HasSubstr(" \n")));
+}
+
+TEST(MilliText, HasDigitsHoweverSmallTheNumber) {
+  EXPECT_EQ(MilliText(0.12345678), "123.4568");
+  EXPECT_EQ(MilliText(-4.25e-5), "-0.0425");
+  EXPECT_EQ(MilliText(1e-6), "0.0010");
+  EXPECT_EQ(MilliText(-3.21e-7), "-0.000321");
+  EXPECT_EQ(MilliText(3.2e-13), "3.2e-10");
+  EXPECT_EQ(MilliText(-9e-14), "0");
+  EXPECT_EQ(MilliText(0.0), "0");
+  EXPECT_EQ(MilliText(std::numeric_limits<double>::quiet_NaN()), "–");
 }
 
 TEST(ResultTable, OfMarkersSaysTheirNoiseAndWhoseItIs) {

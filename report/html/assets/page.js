@@ -91,7 +91,8 @@
     }
     Object.keys(full).filter(isAxis).forEach(function (key) {
       full[key] = Object.assign({
-        gridcolor: colours.grid, zerolinecolor: colours.muted, linecolor: colours.grid, automargin: true
+        gridcolor: colours.grid, zerolinecolor: colours.muted, linecolor: colours.grid, automargin: true,
+        exponentformat: "power"  // 100 µ of a title's mm is no unit
       }, full[key]);
     });
     if (printing) {
