@@ -15,11 +15,12 @@
 namespace hexcal {
 namespace {
 
-// Of each pose of the pictures, whether the fit used it.
+// Of each pose that the others check, whether the fit used it.
 std::vector<bool> UsedPosesOf(const Audit& audit) {
+  const PoseResiduals& residuals = audit.left_over.poses;
   std::set<std::string> left_out;
-  for (const PoseResult& pose : audit.estimate.poses)
-    if (!(pose.weight > 0.0)) left_out.insert(pose.label);
+  for (std::size_t i = 0; i < residuals.labels.size(); ++i)
+    if (!residuals.used[i]) left_out.insert(residuals.labels[i]);
   std::vector<bool> used;
   for (const PoseCheck& pose : audit.poses) used.push_back(left_out.count(pose.label) == 0);
   return used;

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "report/html/assets.h"
 #include "report/html/escape.h"
 #include "testing/audits.h"
 
@@ -65,6 +68,29 @@ TEST_F(AuditHtmlTest, TheVerdictNamesEachOfSeveralRequirements) {
   two.decisions[1].requirement.name = "milling";
   two.decisions[1].compliance = Compliance::kFail;
   EXPECT_THAT(box(two), AllOf(HasSubstr("drilling (PASS): "), HasSubstr("milling (FAIL): ")));
+}
+
+// Of a pose that was left out, in the pictures of held-out and of smallest errors: a cross, and
+// one.
+TEST_F(AuditHtmlTest, PicturesOfPosesHaveACrossForEachThatWasLeftOut) {
+  Audit some = *audit;
+  some.left_over.poses.used[3] = false;
+  const std::string page = AuditHtml({}, {}, some, "{}");
+  for (const char* title : {"<h3>Each pose as the others predict it</h3>",
+                            "<h3>The smallest error of a pose that would be found</h3>"}) {
+    const std::size_t begin = page.find(title);
+    ASSERT_NE(begin, std::string::npos) << title;
+    const std::string figure = page.substr(begin, page.find("</figure>", begin) - begin);
+    EXPECT_THAT(figure, HasSubstr("A cross is of a pose that was left out"));
+    if (FlatCharts().empty()) continue;
+    const std::string symbols = "\"symbol\":[";
+    const std::size_t at = figure.find(symbols) + symbols.size();
+    const std::string drawn = figure.substr(at, figure.find(']', at) - at);
+    const std::size_t cross = drawn.find("x-thin-open");
+    EXPECT_EQ(std::count(drawn.begin(), drawn.begin() + static_cast<std::ptrdiff_t>(cross), ','),
+              3);
+    EXPECT_EQ(drawn.find("x-thin-open", cross + 1), std::string::npos);
+  }
 }
 
 TEST_F(AuditHtmlTest, AnglesOfTheWorkspaceAreInDegreesToo) {

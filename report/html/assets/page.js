@@ -16,8 +16,8 @@
     }
   };
   // On paper two pictures stand side by side where several belong together (page.css), in px of a
-  // page of A4 less its margins, and all are lower, so that more than one row fits on a page; those of rows with
-  // names above them not as much.
+  // page of A4 less its margins, and all are lower, so that more than one row fits on a page; those
+  // of rows with names above them not as much.
   const kPrintWidth = 660, kPrintHalf = 322, kPrintHeight = 0.58, kPrintRows = 0.9, kPrintFont = 10;
   const canHover = window.matchMedia("(hover: hover)");
   const darkLook = window.matchMedia("(prefers-color-scheme: dark)");
