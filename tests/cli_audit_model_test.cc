@@ -11,15 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "testing/run_program.h"
-#include "testing/temporary_folder.h"
+#include "testing/cli_test.h"
 
 namespace hexcal {
 namespace {
 
 using ::hexcal::testing::ProgramResult;
-using ::hexcal::testing::RunHexcal;
-using ::hexcal::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
@@ -31,13 +28,9 @@ std::string TextOf(const std::string& path) {
   return text.str();
 }
 
-class CliAuditModel : public ::testing::Test {
+class CliAuditModel : public testing::CliTest {
  protected:
   CliAuditModel() { folder.Write("plain.yaml", TextOf(kExample + "truth.yaml")); }
-
-  ProgramResult Call(const std::vector<std::string>& arguments) const {
-    return RunHexcal({arguments, folder.Path("")});
-  }
 
   // The example measured with this effect, and a model that has half of it.
   void Measure(const std::string& effect, const std::string& half) {
@@ -51,10 +44,7 @@ class CliAuditModel : public ::testing::Test {
 
   ProgramResult Audit(const std::vector<std::string>& more,
                       const std::string& dataset = "data/neurobot/dataset.yaml") const {
-    std::vector<std::string> arguments = {
-        "audit", dataset, "--out=out", "--draws=1000", "--folds=2", "--quiet"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return Call(arguments);
+    return Call({"audit", dataset, "--out=out", "--draws=1000", "--folds=2", "--quiet"}, more);
   }
 
   Json Read(const std::string& name) const {
@@ -62,7 +52,6 @@ class CliAuditModel : public ::testing::Test {
   }
 
   const std::string requirement = "--requirement=" + kExample + "requirement.yaml";
-  TemporaryFolder folder;
 };
 
 TEST_F(CliAuditModel, TheErrorHoldsTheEffectsUncertainty) {

@@ -11,23 +11,20 @@
 #include <vector>
 
 #include "model/machine.h"
+#include "testing/cli_test.h"
 #include "testing/matchers.h"
-#include "testing/run_program.h"
-#include "testing/temporary_folder.h"
 
 namespace hexcal {
 namespace {
 
 using ::hexcal::testing::PoseNear;
 using ::hexcal::testing::ProgramResult;
-using ::hexcal::testing::RunHexcal;
-using ::hexcal::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 using ::testing::UnorderedElementsAre;
 
-using Arguments = std::vector<std::string>;
+using ::hexcal::testing::Arguments;
 
 constexpr const char* kModel = R"(format: hexcal/model/1
 dataset: demo
@@ -59,7 +56,7 @@ std::string DatasetText(const std::string& name, const std::string& rows) {
          "  noise: {position: 0.0001, orientation: 0.001}\n";
 }
 
-class CliCalibrate : public ::testing::Test {
+class CliCalibrate : public testing::CliTest {
  protected:
   CliCalibrate() {
     folder.Write("m.yaml", kModel);
@@ -74,19 +71,11 @@ class CliCalibrate : public ::testing::Test {
     ASSERT_EQ(result.status, 0) << result.err;
   }
 
-  ProgramResult Call(const Arguments& arguments) const {
-    return RunHexcal({arguments, folder.Path("")});
-  }
-
   ProgramResult Calibrate(const Arguments& more = {}, const std::string& name = "good") const {
-    Arguments arguments = {"calibrate", "data/" + name + "/dataset.yaml"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return Call(arguments);
+    return Call({"calibrate", "data/" + name + "/dataset.yaml"}, more);
   }
 
   std::string Result(const std::string& where) const { return folder.Read(where + "/result.json"); }
-
-  TemporaryFolder folder;
 };
 
 TEST_F(CliCalibrate, RecoversTheMachineThatWasSimulated) {

@@ -7,15 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "testing/run_program.h"
-#include "testing/temporary_folder.h"
+#include "testing/cli_test.h"
 
 namespace hexcal {
 namespace {
 
 using ::hexcal::testing::ProgramResult;
-using ::hexcal::testing::RunHexcal;
-using ::hexcal::testing::TemporaryFolder;
 using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -42,7 +39,7 @@ constexpr const char* kOneAxisRows = R"(    - [a, 0, 0, 0.4, 0, 0, 0]
     - [d, 0.02, 0.01, 0.38, 0, 0, 0.2]
 )";
 
-class CliCompare : public ::testing::Test {
+class CliCompare : public testing::CliTest {
  protected:
   CliCompare() { folder.Write("m.yaml", kModel); }
 
@@ -58,20 +55,12 @@ class CliCompare : public ::testing::Test {
     ASSERT_EQ(made.status, 0) << made.err;
   }
 
-  ProgramResult Call(const std::vector<std::string>& arguments) const {
-    return RunHexcal({arguments, folder.Path("")});
-  }
-
   ProgramResult Compare(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {
-        "compare", "data/demo/dataset.yaml", "--out=out", "--draws=1000", "--starts=2"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return Call(arguments);
+    return Call({"compare", "data/demo/dataset.yaml", "--out=out", "--draws=1000", "--starts=2"},
+                more);
   }
 
   Json Read(const std::string& name) const { return Json::parse(folder.Read("out/demo/" + name)); }
-
-  TemporaryFolder folder;
 };
 
 TEST_F(CliCompare, SetsAllMethodsSideBySide) {

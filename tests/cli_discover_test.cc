@@ -7,15 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "testing/run_program.h"
-#include "testing/temporary_folder.h"
+#include "testing/cli_test.h"
 
 namespace hexcal {
 namespace {
 
 using ::hexcal::testing::ProgramResult;
-using ::hexcal::testing::RunHexcal;
-using ::hexcal::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::UnorderedElementsAre;
@@ -23,18 +20,13 @@ using Json = nlohmann::json;
 
 const std::string kDataset = std::string(HEXCAL_EXAMPLES) + "/neurobot/dataset.yaml";
 
-class CliDiscover : public ::testing::Test {
+class CliDiscover : public testing::CliTest {
  protected:
   ProgramResult Discover(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {
-        "discover", kDataset, "--out=out", "--bootstraps=99", "--folds=2"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return RunHexcal({arguments, folder.Path("")});
+    return Call({"discover", kDataset, "--out=out", "--bootstraps=99", "--folds=2"}, more);
   }
 
   std::string Read(const std::string& name) const { return folder.Read("out/neurobot/" + name); }
-
-  TemporaryFolder folder;
 };
 
 TEST_F(CliDiscover, LeavesItsFilesAndSaysWhatIsInThem) {
@@ -61,8 +53,8 @@ TEST_F(CliDiscover, LeavesItsFilesAndSaysWhatIsInThem) {
   EXPECT_EQ(fitted["residual"], "marker");
   EXPECT_EQ(fitted["effects"].size(), discovery["effects"].size());
   EXPECT_EQ(Json::parse(Read("run.json"))["settings"]["folds"], "2");
-  const ProgramResult predicted = RunHexcal(
-      {{"predict", kDataset, "--model=out/neurobot/model.yaml", "--out=p.csv"}, folder.Path("")});
+  const ProgramResult predicted =
+      Call({"predict", kDataset, "--model=out/neurobot/model.yaml", "--out=p.csv"});
   EXPECT_EQ(predicted.status, 0) << predicted.err;
 }
 
@@ -95,8 +87,8 @@ TEST_F(CliDiscover, RefusesWhatItsFlagsDoNotTake) {
   EXPECT_EQ(Discover({"--bootstraps=98"}).status, 2);
   EXPECT_EQ(Discover({"--noise_position=1e-4"}).status, 2);  // goes with --noise_orientation
   EXPECT_EQ(Discover({"--draws=1000"}).status, 2);
-  EXPECT_EQ(RunHexcal({{"discover", "--out=out"}, folder.Path("")}).status, 2);
-  EXPECT_EQ(RunHexcal({{"discover", "none.yaml", "--out=out"}, folder.Path("")}).status, 3);
+  EXPECT_EQ(Call({"discover", "--out=out"}).status, 2);
+  EXPECT_EQ(Call({"discover", "none.yaml", "--out=out"}).status, 3);
 }
 
 }  // namespace

@@ -16,10 +16,9 @@
 #include "measurement/importers/yaml_poses.h"
 #include "report/export/formats.h"
 #include "report/export/writers.h"
+#include "testing/cli_test.h"
 #include "testing/matchers.h"
 #include "testing/random.h"
-#include "testing/run_program.h"
-#include "testing/temporary_folder.h"
 
 namespace hexcal {
 namespace {
@@ -27,19 +26,16 @@ namespace {
 using ::hexcal::testing::MatrixNear;
 using ::hexcal::testing::PoseNear;
 using ::hexcal::testing::ProgramResult;
-using ::hexcal::testing::RunHexcal;
-using ::hexcal::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
 constexpr double kExact = 1e-12;
 const std::string kDataset = std::string(HEXCAL_EXAMPLES) + "/paper/dataset.yaml";
 
-class CliExport : public ::testing::Test {
+class CliExport : public testing::CliTest {
  protected:
   void SetUp() override {
-    const ProgramResult calibrated =
-        RunHexcal({{"calibrate", kDataset, "--out=out"}, folder.Path("")});
+    const ProgramResult calibrated = Call({"calibrate", kDataset, "--out=out"});
     ASSERT_EQ(calibrated.status, 0) << calibrated.err;
     for (const auto& entry : std::filesystem::directory_iterator(folder.Path("out")))
       result_path = entry.path().string() + "/result.json";
@@ -47,9 +43,7 @@ class CliExport : public ::testing::Test {
     result = Json::parse(file);
   }
   ProgramResult Export(const std::string& format, const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> arguments = {"export", format, result_path, "--out=ex"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return RunHexcal({arguments, folder.Path("")});
+    return Call({"export", format, result_path, "--out=ex"}, more);
   }
   std::string Exported(const std::string& format,
                        const std::string& file,
@@ -64,7 +58,6 @@ class CliExport : public ::testing::Test {
     return {Eigen::Vector3d(t[0], t[1], t[2]), Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
   }
 
-  TemporaryFolder folder;
   std::string result_path;
   Json result;
 };
@@ -258,7 +251,7 @@ TEST_F(CliExport, RefusesWhatItCannotUse) {
   const ProgramResult twice = Export("ros1", {"--base_frame=world"});
   EXPECT_EQ(twice.status, 2);
   EXPECT_THAT(twice.err, HasSubstr("--world_frame and --base_frame: found 'world' twice"));
-  EXPECT_EQ(RunHexcal({{"export", "ros1", kDataset, "--out=ex"}, folder.Path("")}).status, 3);
+  EXPECT_EQ(Call({"export", "ros1", kDataset, "--out=ex"}).status, 3);
   const std::string path = result_path;
   Json broken = result;
   broken["format"] = "hexcal/result/9";
@@ -306,7 +299,7 @@ TEST_F(CliExport, RefusesATransformThatContradictsItsMatrix) {
 }
 
 TEST_F(CliExport, HelpAndDocsNameEveryFormat) {
-  const std::string help = RunHexcal({{"help", "export"}, folder.Path("")}).out;
+  const std::string help = Call({"help", "export"}).out;
   std::ostringstream docs;
   docs << std::ifstream(std::string(HEXCAL_SOURCE) + "/docs/formats.md").rdbuf();
   for (const ExportFormat& format : ExportFormats()) {

@@ -7,21 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "testing/run_program.h"
-#include "testing/temporary_folder.h"
+#include "testing/cli_test.h"
 
 namespace hexcal {
 namespace {
 
 using ::hexcal::testing::ProgramResult;
-using ::hexcal::testing::RunHexcal;
-using ::hexcal::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 using ::testing::UnorderedElementsAre;
 
-using Arguments = std::vector<std::string>;
+using ::hexcal::testing::Arguments;
 
 constexpr const char* kDataset = R"(format: hexcal/dataset/1
 name: demo
@@ -49,30 +46,20 @@ world_from_base: {xyz: [1, 2, 3], quaternion: [0.5, 0.5, 0.5, 0.5]}
 platform_from_tool: {xyz: [0, 0.5, 0], quaternion: [1, 0, 0, 0]}
 )";
 
-class CliFiles : public ::testing::Test {
+class CliFiles : public testing::CliTest {
  protected:
   CliFiles() {
     folder.Write("d.yaml", kDataset);
     folder.Write("m.yaml", kModel);
   }
 
-  ProgramResult Call(const Arguments& arguments) const {
-    return RunHexcal({arguments, folder.Path("")});
-  }
-
   ProgramResult Predict(const Arguments& more = {}) const {
-    Arguments arguments = {"predict", "d.yaml", "--model=m.yaml", "--out=p.csv"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return Call(arguments);
+    return Call({"predict", "d.yaml", "--model=m.yaml", "--out=p.csv"}, more);
   }
 
   ProgramResult Simulate(const Arguments& more = {}) const {
-    Arguments arguments = {"simulate", "d.yaml", "--model=m.yaml"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return Call(arguments);
+    return Call({"simulate", "d.yaml", "--model=m.yaml"}, more);
   }
-
-  TemporaryFolder folder;
 };
 
 // Pose a by hand: (0, 0.5, 0.1) in the base is (0.1, 0, 0.5) in the world, from (1, 2, 3).

@@ -9,16 +9,13 @@
 #include <vector>
 
 #include "geometry/pose.h"
+#include "testing/cli_test.h"
 #include "testing/random.h"
-#include "testing/run_program.h"
-#include "testing/temporary_folder.h"
 
 namespace hexcal {
 namespace {
 
 using ::hexcal::testing::ProgramResult;
-using ::hexcal::testing::RunHexcal;
-using ::hexcal::testing::TemporaryFolder;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -26,20 +23,15 @@ using ::testing::Not;
 const std::string kTracker = HEXCAL_EXAMPLES "/ndi-and-pi/tracker.csv";
 const std::string kRobot = "--robot=" HEXCAL_EXAMPLES "/ndi-and-pi/hexapod.dat";
 
-class CliImportSlips : public ::testing::Test {
+class CliImportSlips : public testing::CliTest {
  protected:
   ProgramResult Import(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {
-        "import", "ndi_csv", kTracker, kRobot, "--pair=rows", "--out=mine"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return RunHexcal({arguments, folder.Path("")});
+    return Call({"import", "ndi_csv", kTracker, kRobot, "--pair=rows", "--out=mine"}, more);
   }
   ProgramResult ImportRightly(std::vector<std::string> more) const {
     more.insert(more.end(), {"--base=0x0A", "--tool=0x0B"});
     return Import(more);
   }
-
-  TemporaryFolder folder;
 };
 
 // A second run replaces the first, but no key that was added by hand since.
@@ -64,8 +56,7 @@ TEST_F(CliImportSlips, RefusesOneBodyForBaseAndTool) {
 TEST_F(CliImportSlips, SaysThatARobotsFileIsUtf16) {
   folder.Write("robot.dat", std::string("\xFF\xFE#\0 \0T\0Y\0P\0E\0", 14));
   const ProgramResult refused =
-      RunHexcal({{"import", "ndi_csv", kTracker, "--robot=robot.dat", "--pair=rows", "--out=mine"},
-                 folder.Path("")});
+      Call({"import", "ndi_csv", kTracker, "--robot=robot.dat", "--pair=rows", "--out=mine"});
   EXPECT_EQ(refused.status, 3);
   EXPECT_THAT(refused.err, HasSubstr("robot.dat:1:1: found UTF-16 text, expected UTF-8 text"));
 }
@@ -133,7 +124,7 @@ TEST_F(CliImportSlips, SaysThatTheScalarOfTheTrackersQuaternionsIsAtTheOtherEnd)
   const auto import = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "import");
     arguments.insert(arguments.end(), {"--robot=robot.tum", "--pair=rows", "--out=mine"});
-    const ProgramResult imported = RunHexcal({arguments, folder.Path("")});
+    const ProgramResult imported = Call(arguments);
     EXPECT_EQ(imported.status, 0) << imported.err;
     return imported.out + imported.err;
   };

@@ -16,17 +16,15 @@
 #include "config/number.h"
 #include "measurement/importers/formats.h"
 #include "model/machine.h"
+#include "testing/cli_test.h"
 #include "testing/matchers.h"
 #include "testing/random.h"
-#include "testing/run_program.h"
-#include "testing/temporary_folder.h"
 
 namespace hexcal {
 namespace {
 
 using ::hexcal::testing::ProgramResult;
 using ::hexcal::testing::RunHexcal;
-using ::hexcal::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
 
@@ -34,12 +32,10 @@ const std::string kExamples = HEXCAL_EXAMPLES;
 const std::string kTracker = kExamples + "/ndi-and-pi/tracker.csv";
 const std::string kRobot = "--robot=" + kExamples + "/ndi-and-pi/hexapod.dat";
 
-class CliImport : public ::testing::Test {
+class CliImport : public testing::CliTest {
  protected:
   ProgramResult Import(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {"import"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return RunHexcal({arguments, folder.Path("")});
+    return Call({"import"}, more);
   }
   ProgramResult ImportExample(const std::vector<std::string>& more) const {
     std::vector<std::string> arguments = {
@@ -47,8 +43,6 @@ class CliImport : public ::testing::Test {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return Import(arguments);
   }
-
-  TemporaryFolder folder;
 };
 
 Pose3d PoseOf(const Json& json) {
@@ -62,8 +56,7 @@ TEST_F(CliImport, GoesFromNdiAndPiFilesToACalibration) {
   EXPECT_THAT(imported.out, HasSubstr("mine: 60 robot poses, 354 readings of 3 + 3 markers"));
   EXPECT_THAT(imported.err, HasSubstr("2 tools not used, their state being 'Too Few Markers'"));
 
-  const ProgramResult calibrated =
-      RunHexcal({{"calibrate", "mine/dataset.yaml", "--out=out"}, folder.Path("")});
+  const ProgramResult calibrated = Call({"calibrate", "mine/dataset.yaml", "--out=out"});
   ASSERT_EQ(calibrated.status, 0) << calibrated.err;
   const Json result = Json::parse(folder.Read("out/mine/result.json"));
   EXPECT_EQ(result["residual"], "marker");
@@ -81,8 +74,7 @@ TEST_F(CliImport, GoesFromNdiAndPiFilesToACalibration) {
 TEST_F(CliImport, GivesTheSameByPosesWithinTheirNoise) {
   ASSERT_EQ(ImportExample({"--pair=rows", "--kind=poses"}).status, 0);
   EXPECT_THAT(folder.Read("mine/dataset.yaml"), HasSubstr("kind: poses"));
-  const ProgramResult calibrated =
-      RunHexcal({{"calibrate", "mine/dataset.yaml", "--out=out"}, folder.Path("")});
+  const ProgramResult calibrated = Call({"calibrate", "mine/dataset.yaml", "--out=out"});
   ASSERT_EQ(calibrated.status, 0) << calibrated.err;
   const Json result = Json::parse(folder.Read("out/mine/result.json"));
   const Machine truth = ReadMachine(kExamples + "/neurobot/truth.yaml");
@@ -100,8 +92,7 @@ TEST_F(CliImport, SaysWhatTheConventionsAsStatedLeave) {
       left,
       std::regex("others fits much better; base and tool leave (\\S+) mm and (\\S+) mrad")))
       << out;
-  ASSERT_EQ(RunHexcal({{"calibrate", "mine/dataset.yaml", "--out=out"}, folder.Path("")}).status,
-            0);
+  ASSERT_EQ(Call({"calibrate", "mine/dataset.yaml", "--out=out"}).status, 0);
   const Json result = Json::parse(folder.Read("out/mine/result.json"));
   EXPECT_NEAR(ParseDouble(left.str(1)).value() / (1e3 * result["rmspe"].get<double>()), 1.0, 0.2);
   EXPECT_NEAR(ParseDouble(left.str(2)).value() / (1e3 * result["rmsoe"].get<double>()), 1.0, 0.2);
@@ -197,8 +188,7 @@ TEST_F(CliImport, TakesFirstPrinciplesMarkersWithTheirBodies) {
                                          "--out=mine"});
   ASSERT_EQ(imported.status, 0) << imported.err;
   EXPECT_THAT(imported.out, HasSubstr("conventions as stated"));
-  const ProgramResult calibrated =
-      RunHexcal({{"calibrate", "mine/dataset.yaml", "--out=out"}, folder.Path("")});
+  const ProgramResult calibrated = Call({"calibrate", "mine/dataset.yaml", "--out=out"});
   ASSERT_EQ(calibrated.status, 0) << calibrated.err;
   const Json result = Json::parse(folder.Read("out/mine/result.json"));
   const Machine truth = ReadMachine(kExamples + "/neurobot/truth.yaml");
@@ -316,16 +306,15 @@ TEST_F(CliImport, MakesAPlanOfARobotsPosesAlone) {
   const ProgramResult plan =
       Import({"pi_gcs", kExamples + "/ndi-and-pi/hexapod.dat", "--out=plan"});
   ASSERT_EQ(plan.status, 0) << plan.err;
-  const ProgramResult predicted = RunHexcal({{"predict",
-                                              "plan/dataset.yaml",
-                                              "--model=" + kExamples + "/neurobot/truth.yaml",
-                                              "--out=where.csv"},
-                                             folder.Path("")});
+  const ProgramResult predicted = Call({"predict",
+                                        "plan/dataset.yaml",
+                                        "--model=" + kExamples + "/neurobot/truth.yaml",
+                                        "--out=where.csv"});
   EXPECT_EQ(predicted.status, 0) << predicted.err;
 }
 
 TEST_F(CliImport, HelpNamesEveryFormat) {
-  const std::string help = RunHexcal({{"help", "import"}, folder.Path("")}).out;
+  const std::string help = Call({"help", "import"}).out;
   for (const ImportFormat& format : ImportFormats())
     EXPECT_THAT(help, HasSubstr(std::string(format.name) + ": "));
 }

@@ -11,37 +11,29 @@
 #include <utility>
 #include <vector>
 
-#include "testing/run_program.h"
-#include "testing/temporary_folder.h"
+#include "testing/cli_test.h"
 
 namespace hexcal {
 namespace {
 
 using ::hexcal::testing::ProgramResult;
-using ::hexcal::testing::RunHexcal;
-using ::hexcal::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using Json = nlohmann::json;
 
 const std::string kNeurobot = std::string(HEXCAL_EXAMPLES) + "/neurobot/dataset.yaml";
 
-class CliPlan : public ::testing::Test {
+class CliPlan : public testing::CliTest {
  protected:
   void SetUp() override {
-    const ProgramResult result =
-        RunHexcal({{"calibrate", kNeurobot, "--out=out", "--quiet"}, folder.Path("")});
+    const ProgramResult result = Call({"calibrate", kNeurobot, "--out=out", "--quiet"});
     ASSERT_EQ(result.status, 0) << result.err;
   }
 
   ProgramResult Plan(const std::string& dataset, const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {
-        "plan", dataset, "--model=out/neurobot/model.yaml", "--pool=60", "--poses=5"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return RunHexcal({arguments, folder.Path("")});
+    return Call({"plan", dataset, "--model=out/neurobot/model.yaml", "--pool=60", "--poses=5"},
+                more);
   }
-
-  TemporaryFolder folder;
 };
 
 TEST_F(CliPlan, WritesATableThatIsRobotPosesOfANewDataset) {
@@ -64,8 +56,7 @@ TEST_F(CliPlan, WritesATableThatIsRobotPosesOfANewDataset) {
   replace("  file: markers.csv\n", "");
   folder.Write("next.yaml", yaml);
   const ProgramResult again =
-      RunHexcal({{"predict", "next.yaml", "--model=out/neurobot/model.yaml", "--out=where.csv"},
-                 folder.Path("")});
+      Call({"predict", "next.yaml", "--model=out/neurobot/model.yaml", "--out=where.csv"});
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_THAT(folder.Read("where.csv"), HasSubstr("\nplan-5,"));
 }
@@ -128,14 +119,13 @@ TEST_F(CliPlan, RefusesWhatItCannotUse) {
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.err, HasSubstr("found 'plan.txt', expected a file that ends in .csv or .json"));
   EXPECT_EQ(Plan(kNeurobot, {"--out=a.csv", "--for=fun"}).status, 2);
-  EXPECT_EQ(RunHexcal({{"plan", kNeurobot, "--out=a.csv"}, folder.Path("")}).status, 2);
-  const ProgramResult many = RunHexcal({{"plan",
-                                         kNeurobot,
-                                         "--model=out/neurobot/model.yaml",
-                                         "--out=a.csv",
-                                         "--poses=80",
-                                         "--pool=60"},
-                                        folder.Path("")});
+  EXPECT_EQ(Call({"plan", kNeurobot, "--out=a.csv"}).status, 2);
+  const ProgramResult many = Call({"plan",
+                                   kNeurobot,
+                                   "--model=out/neurobot/model.yaml",
+                                   "--out=a.csv",
+                                   "--poses=80",
+                                   "--pool=60"});
   EXPECT_EQ(many.status, 2);
   EXPECT_THAT(many.err, HasSubstr("expected at most --pool, 60"));
   const ProgramResult missing = Plan("nowhere.yaml", {"--out=a.csv"});

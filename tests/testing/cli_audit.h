@@ -1,28 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "testing/run_program.h"
-#include "testing/temporary_folder.h"
+#include "testing/cli_test.h"
 
 namespace hexcal::testing {
 
 inline const std::string kAudited = std::string(HEXCAL_EXAMPLES) + "/neurobot/";
 
 // hexcal audit of examples/neurobot from outside, in a folder of its own.
-class CliAudit : public ::testing::Test {
+class CliAudit : public CliTest {
  protected:
   ProgramResult Audit(const std::vector<std::string>& more) const {
-    std::vector<std::string> arguments = {
-        "audit", kAudited + "dataset.yaml", "--out=out", "--draws=1000", "--folds=2"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return RunHexcal({arguments, folder.Path("")});
+    return Call({"audit", kAudited + "dataset.yaml", "--out=out", "--draws=1000", "--folds=2"},
+                more);
   }
 
   std::string Read(const std::string& name) const { return folder.Read("out/neurobot/" + name); }
@@ -42,7 +37,6 @@ class CliAudit : public ::testing::Test {
   }
 
   const std::string bundled = "--requirement=" + kAudited + "requirement.yaml";
-  TemporaryFolder folder;
 };
 
 }  // namespace hexcal::testing
