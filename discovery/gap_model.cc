@@ -3,11 +3,14 @@
 
 #include <glog/logging.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "discovery/site_jacobians.h"
+#include "estimator/rounding_noise.h"
 #include "geometry/linear_algebra.h"
 #include "model/described_effect.h"
 #include "model/predict.h"
@@ -175,6 +178,28 @@ void AddComponents(const GapData& data,
     problem->components[c].push_back(components[c]);
 }
 
+// What rounding makes of each component: of the robot's, which is known no better than the tracker
+// sees, nothing.
+void SetLeastFactors(const std::vector<SeenPose>& seen, LinearProblem* problem) {
+  double size = 0.0;
+  for (const SeenPose& pose : seen) size = std::max(size, pose.world_from_tool.translation.norm());
+  const double rounding = kRoundingsOfNoise * std::numeric_limits<double>::epsilon();
+  const auto factor = [&](const std::vector<Matrix6d>& component) {
+    double position = 0.0, orientation = 0.0;
+    for (const Matrix6d& covariance : component) {
+      position = std::max(position, covariance.diagonal().head<3>().maxCoeff());
+      orientation = std::max(orientation, covariance.diagonal().tail<3>().maxCoeff());
+    }
+    const double by_position = position > 0.0 ? std::pow(rounding * size, 2) / position : 0.0;
+    const double by_orientation = orientation > 0.0 ? std::pow(rounding, 2) / orientation : 0.0;
+    return std::max(by_position, by_orientation);
+  };
+  problem->least_factor.assign(problem->components.size(), 0.0);
+  const std::size_t measured = problem->components.size() == 2 ? 2 : 1;
+  for (std::size_t c = 0; c < measured; ++c)
+    problem->least_factor[c] = factor(problem->components[c]);
+}
+
 Eigen::VectorXd ShapeOf(const SeenPose& seen) {
   std::array<Eigen::VectorXd, 2> parts;
   for (int b = 0; b < 2; ++b)
@@ -288,6 +313,7 @@ std::optional<GapProblem> MakeGapProblemInReach(const GapData& data,
     if (hexapod != nullptr) problem.legs_by_error.push_back(PseudoInverse(sites.leg, 1e-12));
   }
   writer.Finish();
+  SetLeastFactors(problem.seen, &linear);
   return problem;
 }
 

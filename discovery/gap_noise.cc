@@ -71,9 +71,15 @@ double RemlStep(const LinearProblem& problem, GapNoise* noise) {
   return change;
 }
 
+double LeastFactor(const LinearProblem& problem, std::size_t component) {
+  return component < problem.least_factor.size() ? problem.least_factor[component] : 0.0;
+}
+
 void FitFactors(const LinearProblem& problem, GapNoise* noise) {
   for (int i = 0; i < kRemlIterations; ++i)
     if (RemlStep(problem, noise) < kRemlTolerance) break;
+  for (std::size_t c = 0; c < noise->factor.size(); ++c)
+    noise->factor[c] = std::max(noise->factor[c], LeastFactor(problem, c));
 }
 
 // Squared whitened residual of each pose at weight one.
@@ -216,6 +222,8 @@ void FitShape(const LinearProblem& problem, GapNoise* noise) {
     noise->shape_weight = Weights(squared, tail, dimension);
     noise->shape_factor = noise->shape_weight.dot(squared) / left;
   }
+  // Whitened by the stated noise of a reading, as the first component is made of it.
+  noise->shape_factor = std::max(noise->shape_factor, LeastFactor(problem, 0));
   FitShapeCorrelation(problem, noise);
 }
 

@@ -43,6 +43,7 @@ LinearProblem LinearProblem::Restricted(const std::vector<int>& some) const {
     part.components.emplace_back();
     for (const int pose : some) part.components.back().push_back(component[pose]);
   }
+  part.least_factor = least_factor;
   part.scale = scale;
   part.forms = forms;
   part.families = families;

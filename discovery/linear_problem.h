@@ -43,6 +43,8 @@ struct LinearProblem {
   // The covariance of a pose's error is a sum of these with unknown factors: components[c][pose].
   // The first has the factor 1 where the noise is stated rightly.
   std::vector<std::vector<Matrix6d>> components;
+  // Of each component: a noise of a smaller factor is the rounding of the data and tells nothing.
+  std::vector<double> least_factor;
 
   // Shape rows: shape_pose tells the pose of each. Only columns of tracker and marker effects are
   // not zero; shape_columns has one column for each that shape_of points to (-1: zero).

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
+#include "estimator/rounding_noise.h"
 #include "geometry/align_points.h"
 #include "model/data_fault.h"
 
@@ -39,8 +41,12 @@ struct Touched {
 class Bodies {
  public:
   explicit Bodies(const Measurement& measurement) : bodies_(measurement.bodies) {
-    for (const MarkerReading& reading : measurement.readings)
+    double size = 0.0;
+    for (const MarkerReading& reading : measurement.readings) {
       if (seen_.emplace(reading.pose, seen_.size()).second) poses_.push_back(reading.pose);
+      size = std::max(size, reading.p_in_tracker.norm());
+    }
+    rounding_ = kRoundingsOfNoise * std::numeric_limits<double>::epsilon() * size;
   }
 
   Misfit Of(const Measurement& measurement, int every) const {
@@ -55,6 +61,9 @@ class Bodies {
   }
 
   int poses() const { return static_cast<int>(poses_.size()); }
+
+  // Of one coordinate, m^2: less is the rounding of the readings.
+  double LeastSquare() const { return rounding_ * rounding_; }
 
  private:
   void Add(const std::vector<const MarkerReading*>& readings, BodyId body, Misfit* misfit) const {
@@ -79,6 +88,7 @@ class Bodies {
   const std::array<MarkerBody, 2>& bodies_;
   std::map<int, std::size_t> seen_;  // place of each pose in the order of the readings
   std::vector<int> poses_;
+  double rounding_ = 0.0;
 };
 
 Effect Swap(int first, int second) {
@@ -102,6 +112,7 @@ std::optional<FaultFound> FindOne(const Measurement& measurement) {
       const Effect effect = Swap(a, b);
       const Touched touched = {a <= in_base, b > in_base};
       const double before = touched.Squares(whole);
+      if (before <= touched.Freedom(whole) * bodies.LeastSquare()) continue;
       const Measurement mended = MendedMeasurement(measurement, {effect});
       if (touched.Squares(bodies.Of(mended, every)) > kFarBetter * touched.Squares(first_look))
         continue;

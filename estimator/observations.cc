@@ -52,8 +52,10 @@ Matrix6d ErrorCovariance(const Observation& observation,
                          const Observations& observations,
                          const Pose3d& platform_from_tool,
                          const NoiseLevels& levels) {
-  Matrix6d covariance = observation.tool_covariance;
-  if (!observations.tool_noise_is_known) {
+  Matrix6d covariance = Matrix6d::Zero();
+  if (observations.tool_noise_is_known) {
+    covariance = observation.tool_covariance;
+  } else {
     covariance.diagonal().head<3>().setConstant(levels.position * levels.position);
     covariance.diagonal().tail<3>().setConstant(levels.orientation * levels.orientation);
   }

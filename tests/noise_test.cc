@@ -110,6 +110,24 @@ TEST(Noise, ALevelOfWhichTheDataSayNothingStaysAsItWas) {
   }
 }
 
+// A noise that is stated, but not to be used, leaves nothing behind.
+TEST(Noise, OfWhichNothingIsKnownIsThatOfTheLevelsAlone) {
+  auto rng = SeededByTest();
+  const BaseAndTool truth = AnyMounts(rng);
+  auto rows = HexapodObservations(rng, truth, 4);
+  testing::AddNoise(rng, Isotropic(1e-3, 0.1), &rows);
+  for (Observation& o : rows) {
+    const Matrix6d any = Matrix6d::Random();
+    o.tool_covariance = any * any.transpose();
+  }
+  const Observations observations = testing::UnknownNoise(rows);
+  Vector6d variances;
+  variances << Eigen::Vector3d::Constant(4e-8), Eigen::Vector3d::Constant(9e-6);
+  for (const Observation& o : observations.items)
+    EXPECT_TRUE(ErrorCovariance(o, observations, truth.platform_from_tool, {2e-4, 3e-3})
+                    .isApprox(Matrix6d(variances.asDiagonal()), 1e-14));
+}
+
 TEST(Noise, WithoutNoiseStaysAtRounding) {
   auto rng = SeededByTest();
   const BaseAndTool truth = AnyMounts(rng);

@@ -34,6 +34,17 @@ TEST(Quantiles, OfNormalAndBetaAreTableAndClosedForm) {
   }
 }
 
+// An exception would end an audit of which one number cannot be said.
+TEST(Quantiles, OfNoDegreeOfFreedomAreNone) {
+  for (const double none : {0.0, -1.0, std::nan("")}) {
+    EXPECT_TRUE(std::isnan(StudentTQuantile(0.975, none))) << none;
+    EXPECT_TRUE(std::isnan(StudentTTail(1.0, none))) << none;
+    EXPECT_TRUE(std::isnan(ChiSquareQuantile(0.95, none))) << none;
+    EXPECT_TRUE(std::isnan(FisherFQuantile(0.95, 12.0, none))) << none;
+    EXPECT_TRUE(std::isnan(FisherFTail(1.0, none, 12.0))) << none;
+  }
+}
+
 double BinomialTail(int from, int n, double p) {
   double sum = 0.0;
   for (int k = from; k <= n; ++k)

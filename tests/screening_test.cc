@@ -25,12 +25,12 @@ struct Measured {
   Dataset dataset;
 };
 
-Measured Measure(const std::vector<std::string>& effects, std::uint64_t seed) {
+Measured Measure(const std::vector<std::string>& effects, std::uint64_t seed, double noise = 1.0) {
   auto rng = testing::SeededByTest();
   Measured measured{testing::MakeModelScene(rng, effects, 60), {}};
   for (Machine* machine : {&measured.scene.truth, &measured.scene.model})
     for (Effect& effect : machine->effects) effect.parameters *= 4.0;  // to be clear in the noise
-  measured.dataset = Simulate(measured.scene.plan, measured.scene.truth, {seed, 1.0, true});
+  measured.dataset = Simulate(measured.scene.plan, measured.scene.truth, {seed, noise, true});
   return measured;
 }
 
@@ -93,6 +93,26 @@ TEST(Screening, OfDataThatLackNothingNamesNothing) {
     EXPECT_GT(one.standard_uncertainty, 0.0) << one.name;
     EXPECT_GT(one.at_points.at(0), 0.0) << one.name;
   }
+}
+
+// What rounding leaves is no noise that an effect could stand out of: markers under each other's
+// names, units and offsets were found in it.
+TEST(Screening, OfExactDataNamesNothing) {
+  for (const bool noise_is_stated : {true, false}) {
+    Measured measured = Measure({}, 5, 0.0);
+    if (!noise_is_stated) measured.dataset.measurement->marker_sigma.reset();
+    const Screening screening = Screen(measured.dataset, Quick(), {{0, 0, 0.1}});
+    EXPECT_THAT(screening.named, IsEmpty());
+    EXPECT_GT(screening.tested.size(), 20u);
+  }
+}
+
+// However small it is, what is not rounding has a name.
+TEST(Screening, OfExactDataNamesWhatIsHidden) {
+  const Measured measured = Measure({"tool_thermal"}, 3, 0.0);
+  const Screening screening = Screen(measured.dataset, Quick(), {});
+  ASSERT_THAT(screening.named, SizeIs(1));
+  EXPECT_EQ(screening.tested.front().name, "tool_thermal");
 }
 
 // What is in the model already is no longer missing.
