@@ -14,8 +14,8 @@ namespace hexcal {
 namespace {
 
 // Doubles throughout (long ones take three times as long), and no exception where a tail is too
-// small for a number, nor where there is no distribution (NaN): a fit of exact data to a wrong model
-// may leave no degree of freedom.
+// small for a number, nor where there is no distribution (NaN): a fit of exact data to a wrong
+// model may leave no degree of freedom.
 using Policy = boost::math::policies::policy<
     boost::math::policies::promote_double<false>,
     boost::math::policies::domain_error<boost::math::policies::ignore_error>,

@@ -21,6 +21,7 @@ using ::hexcal::testing::kAudited;
 using ::hexcal::testing::ProgramResult;
 using ::hexcal::testing::RunHexcal;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Json = nlohmann::json;
 
 // The solutions side by side are those that calibrate finds alone.
@@ -58,6 +59,18 @@ TEST_F(CliAudit, SaysWhichFitIsTestedAndRepeated) {
   EXPECT_THAT(Read("report.html"), HasSubstr("<li>Loss: Tukey&#39;s"));
   EXPECT_EQ(Json::parse(Read("audit.json"))["fit"]["loss"], "tukey");
   EXPECT_EQ(Json::parse(Read("result.json"))["loss"]["kind"], "tukey");
+}
+
+// Simulated data without noise, of which the noise is stated, end in a report that asks for
+// nothing.
+TEST_F(CliAudit, OfExactDataIsAReport) {
+  const std::string truth = "--model=" + kAudited + "truth.yaml";
+  ASSERT_EQ(Call({"simulate", kAudited + "plan.yaml", truth, "--noise=0", "--out=s"}).status, 0);
+  const ProgramResult found =
+      Call({"audit", "s/neurobot/dataset.yaml", "--out=out", "--draws=1000"});
+  EXPECT_EQ(found.status, 0) << found.err;
+  EXPECT_THAT(found.err, HasSubstr("smaller than the stated noise"));
+  EXPECT_THAT(found.out, Not(HasSubstr("the data ask for")));
 }
 
 // Half a millimetre in one marker of one pose: page, table, audit.json and calibrate name it.
