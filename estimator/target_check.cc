@@ -13,6 +13,7 @@ namespace hexcal {
 namespace {
 
 constexpr int kDigits = 2;
+constexpr double kCoverageFactor = 2.0;
 
 // One draw of a source's six numbers.
 Vector6d Draw(const ErrorSource& source, std::mt19937_64* rng) {
@@ -71,6 +72,30 @@ double At(const std::vector<double>& sorted, double share) {
   return sorted[static_cast<std::size_t>(std::lround(std::clamp(share, 0.0, 1.0) * last))];
 }
 
+// With which the length there is known, at most as the residuals confirm it.
+double FreedomAt(const Estimate& estimate,
+                 const std::vector<ErrorSource>& sources,
+                 const std::shared_ptr<const GrownTarget>& grown,
+                 const Pose3d& base_from_platform,
+                 const Eigen::Vector3d& p_in_tool) {
+  return std::min(
+      TargetError(estimate, sources, grown).At(base_from_platform, p_in_tool).degrees_of_freedom,
+      static_cast<double>(estimate.degrees_of_freedom));
+}
+
+// Of a length that is known with so many degrees of freedom (JCGM 100:2008, E.4.3).
+double RelativeVariance(double degrees_of_freedom) { return 0.5 / degrees_of_freedom; }
+
+bool ExceedsStated(const TargetCheck& check, const StatedLength& stated, double of_repeated) {
+  if (!(stated.length > 0.0)) return false;
+  const double bent =
+      check.agrees ? 0.0 : std::abs(check.repeated_quantile - check.quantile) / check.quantile;
+  const double relative = std::sqrt(RelativeVariance(stated.degrees_of_freedom) +
+                                    RelativeVariance(of_repeated) + bent * bent);
+  return check.repeated_quantile - check.tolerance - 2.0 * check.standard_error >
+         stated.length * (1.0 + kCoverageFactor * relative);
+}
+
 }  // namespace
 
 TargetCheck CheckTarget(const Estimate& estimate,
@@ -81,7 +106,7 @@ TargetCheck CheckTarget(const Estimate& estimate,
                         double probability,
                         std::uint64_t seed,
                         const std::shared_ptr<const GrownTarget>& grown,
-                        double stated) {
+                        const StatedLength& stated) {
   CHECK_GT(propagation.estimates.cols(), 0) << "the draws were not kept";
   Estimate known = estimate;
   known.covariance = estimate.covariance_unscaled;
@@ -128,7 +153,7 @@ TargetCheck CheckTarget(const Estimate& estimate,
                             lengths.begin());
   };
   check.inside = count_to(check.quantile);
-  check.inside_stated = count_to(stated);
+  check.inside_stated = count_to(stated.length);
   // By the order statistics two standard errors of a count to either side.
   const double counts = 2.0 * std::sqrt(probability * (1.0 - probability) / n);
   check.standard_error =
@@ -136,6 +161,8 @@ TargetCheck CheckTarget(const Estimate& estimate,
   check.tolerance = NumericalTolerance(check.rms, kDigits);
   check.agrees = std::abs(check.quantile - check.repeated_quantile) <=
                  check.tolerance + 2.0 * check.standard_error;
+  check.exceeds_stated = ExceedsStated(
+      check, stated, FreedomAt(estimate, sources, grown, base_from_platform, p_in_tool));
   return check;
 }
 

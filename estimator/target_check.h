@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "estimator/monte_carlo.h"
 #include "estimator/target_error.h"
@@ -20,6 +21,15 @@ struct TargetCheck {
   int inside = 0;                                  // draws no longer than quantile
   int inside_stated = 0;                           // draws no longer than the stated length
   bool agrees = false;  // quantiles differ by no more than tolerance and two standard errors
+  // The repeated length is longer than stated by more than chance, tolerance and twice the relative
+  // uncertainty of both and of what is not linear: the statement does not hold.
+  bool exceeds_stated = false;
+};
+
+// The length that is stated of the place with that probability, and how well it is known.
+struct StatedLength {
+  double length = 0.0;  // m; 0: none is
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();
 };
 
 // propagation: with its draws kept, of the same estimate, or of the joint fit of `grown`. The place
@@ -33,6 +43,6 @@ TargetCheck CheckTarget(const Estimate& estimate,
                         double probability,
                         std::uint64_t seed,
                         const std::shared_ptr<const GrownTarget>& grown = nullptr,
-                        double stated = 0.0);
+                        const StatedLength& stated = {});
 
 }  // namespace hexcal

@@ -12,6 +12,7 @@
 #include "geometry/rotation_angles.h"
 #include "report/audit_budget.h"
 #include "report/audit_model.h"
+#include "report/audit_noise.h"
 #include "report/decide.h"
 #include "report/held_out.h"
 #include "report/missing_effects.h"
@@ -103,7 +104,9 @@ PointReport ReportPoint(const Audit& audit,
                                kProbability,
                                input.seed,
                                audit.grown,
-                               report.worst.length_95);
+                               {report.worst.length_95,
+                                std::min(report.worst.degrees_of_freedom,
+                                         static_cast<double>(audit.estimate.degrees_of_freedom))});
   report.validation =
       ValidatePoint(UsedOf(audit.poses, audit.estimate),
                     audit.grown ? audit.grown->solution().cleaned : input.observations,
@@ -157,6 +160,7 @@ std::vector<std::string> DoubtsOf(const Audit& audit) {
     doubts.push_back(fmt::format("{} of {} repetitions of the calibration did not converge",
                                  repeated.not_converged,
                                  repeated.draws));
+  AddDoubtsOfNoise(audit, &doubts);
   AddDoubtsOfReadings(audit.readings, &doubts);
   AddDoubtsOfModel(audit, &doubts);
   AddDoubtsOfMissing(audit, &doubts);
@@ -230,6 +234,7 @@ Audit MakeAudit(AuditInput input) {
   audit.left_over = MakeLeftOver(input.dataset, input.observations, audit.estimate);
   audit.global = GlobalTestOf(audit.estimate);
   audit.global.is_rounding = IsOnlyRounding(input.observations, audit.estimate.noise);
+  if (!audit.global.is_rounding) audit.axis_noise = AxisNoiseOf(input.dataset, input.observations);
   audit.correlations = StrongCorrelations(audit.estimate);
   audit.bodies = BodiesOf(input.dataset, audit.estimate, audit);
   if (audit.estimate.IsTrustworthy()) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "discovery/screening.h"
+#include "estimator/axis_noise.h"
 #include "estimator/compare.h"
 #include "estimator/grown_target.h"
 #include "estimator/pose_check.h"
@@ -106,6 +107,7 @@ struct Audit {
   std::vector<PointReport> points;
   std::vector<Decision> decisions;
   std::vector<BodyReport> bodies;
+  std::optional<AxisNoise> axis_noise;  // of markers whose noise was not stated
   std::optional<Change> change;
   std::shared_ptr<const GrownTarget> grown;  // where effects of a model are in it
   std::vector<ErrorSource> sources;          // with the points' own errors left out

@@ -11,6 +11,15 @@
 namespace hexcal {
 namespace {
 
+// The repeated length against that at worst, which stands above it.
+std::string AgainstStated(const PointReport& report) {
+  const TargetCheck& check = *report.check;
+  if (check.exceeds_stated)
+    return fmt::format("LONGER than stated, {} are within that",
+                       ShareText(static_cast<double>(check.inside_stated) / check.draws));
+  return check.agrees ? "as stated" : "they do NOT agree";
+}
+
 std::string PointLines(const PointReport& report, const RepeatedAs& repeated) {
   std::string text =
       fmt::format("  {}: the error is not longer than, with 95 %\n", report.point.name);
@@ -34,7 +43,7 @@ std::string PointLines(const PointReport& report, const RepeatedAs& repeated) {
                         repeated.is_audits ? "" : " of " + repeated.words,
                         SizeText(report.check->repeated_quantile, "m"),
                         SizeText(report.check->quantile, "m"),
-                        report.check->agrees ? "they agree" : "they do NOT agree");
+                        AgainstStated(report));
   return text;
 }
 

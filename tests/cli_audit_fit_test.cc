@@ -73,6 +73,23 @@ TEST_F(CliAudit, OfExactDataIsAReport) {
   EXPECT_THAT(found.out, Not(HasSubstr("the data ask for")));
 }
 
+// The same readings without their noise, 1:1:2 along the tracker's axes: two levels of poses do not
+// tell it, and what they state is not enough to pass.
+TEST_F(CliAudit, DoubtsANoiseThatWasTakenForAlike) {
+  std::string text;
+  std::ifstream in(kAudited + "dataset.yaml");
+  for (std::string line; std::getline(in, line);)
+    if (line.find("noise: {sigma:") == std::string::npos) text += line + "\n";
+  folder.Write("dataset.yaml", text);
+  for (const char* name : {"markers.csv", "poses.csv"})
+    std::filesystem::copy_file(kAudited + name, folder.Path(name));
+  const ProgramResult found =
+      Call({"audit", "dataset.yaml", bundled, "--residual=pose", "--draws=1000", "--out=out"});
+  EXPECT_EQ(Json::parse(folder.Read("out/neurobot/audit.json"))["verdict"], "INCONCLUSIVE");
+  EXPECT_THAT(found.out, HasSubstr("the markers' noise is not alike along the tracker's axes"));
+  EXPECT_THAT(found.out, HasSubstr("(measurement: noise: sigma; along the tracker's x, y, z"));
+}
+
 // Half a millimetre in one marker of one pose: page, table, audit.json and calibrate name it.
 TEST_F(CliAudit, NamesABadReadingOfOneMarker) {
   std::string rows;

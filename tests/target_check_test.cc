@@ -55,6 +55,31 @@ TEST(TargetCheck, FirstOrderAndRepetitionAgreeWhereNoiseIsSmall) {
   EXPECT_GT(check.standard_error, 0.0);
 }
 
+// A statement that repetition contradicts is found; one that chance or few degrees of freedom
+// explain is none.
+TEST(TargetCheck, SeesAStatementThatIsTooShort) {
+  const Scene scene = MakeScene(1e-4, 5e-4);
+  const Pose3d pose = scene.observations.items[3].base_from_platform;
+  const auto check = [&](double length, double degrees_of_freedom) {
+    return CheckTarget(scene.estimate,
+                       {},
+                       scene.propagation,
+                       pose,
+                       kTip,
+                       0.95,
+                       1,
+                       nullptr,
+                       {length, degrees_of_freedom});
+  };
+  const TargetCheck none = check(0.0, 1.0);
+  EXPECT_FALSE(none.exceeds_stated);
+  const double known = static_cast<double>(scene.estimate.degrees_of_freedom);
+  EXPECT_FALSE(check(none.quantile, known).exceeds_stated);
+  EXPECT_TRUE(check(0.7 * none.quantile, known).exceeds_stated);
+  EXPECT_LT(check(0.7 * none.quantile, known).inside_stated, 0.9 * none.draws);
+  EXPECT_FALSE(check(0.7 * none.quantile, 6.0).exceeds_stated);
+}
+
 // Angles of half a radian bend what first order takes for straight.
 TEST(TargetCheck, SeesWhatFirstOrderMisses) {
   const Scene scene = MakeScene(1e-4, 5e-4);
