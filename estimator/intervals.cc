@@ -19,11 +19,26 @@ constexpr double kMany = 1e7;
 
 double NormalOrT(double dof) { return StudentTQuantile(kUpper, std::min(dof, kMany)); }
 
+// Satterthwaite's, of a number that is a mix of the 12.
+double DegreesOfFreedom(const Intervals& intervals,
+                        const Matrix12d& covariance,
+                        const Vector12d& weights) {
+  if (intervals.slopes.empty()) return intervals.degrees_of_freedom[0];
+  const auto n = static_cast<Eigen::Index>(intervals.slopes.size());
+  Eigen::VectorXd slope(n);
+  for (Eigen::Index k = 0; k < n; ++k) slope[k] = weights.dot(intervals.slopes[k] * weights);
+  const double variance = slope.dot(intervals.spread * slope);
+  const double of_number = weights.dot(covariance * weights);
+  return variance > 0 ? 2.0 * of_number * of_number / variance
+                      : std::numeric_limits<double>::infinity();
+}
+
 Intervals FromStudentAndFisher(const Matrix12d& covariance, double dof, double ellipsoid) {
   Intervals intervals;
   intervals.degrees_of_freedom.setConstant(dof);
   intervals.half_width = NormalOrT(dof) * covariance.diagonal().cwiseSqrt();
   intervals.ellipsoid = ellipsoid;
+  intervals.widened = covariance;
   return intervals;
 }
 
@@ -42,14 +57,16 @@ class KenwardRoger {
   }
 
   Intervals Run() const {
-    const Matrix12d widened = Widened();
     Intervals intervals;
+    intervals.widened = Widened();
+    intervals.slopes = slopes_;
+    intervals.spread = spread_;
     for (int i = 0; i < kDof; ++i) {
-      const double dof = Satterthwaite(i);
-      intervals.degrees_of_freedom[i] = dof;
-      intervals.half_width[i] = NormalOrT(dof) * std::sqrt(widened(i, i));
+      const NumberInterval one = IntervalOf(intervals, covariance_, Vector12d::Unit(i));
+      intervals.degrees_of_freedom[i] = one.degrees_of_freedom;
+      intervals.half_width[i] = one.half_width;
     }
-    intervals.ellipsoid = Ellipsoid(widened);
+    intervals.ellipsoid = Ellipsoid(intervals.widened);
     return intervals;
   }
 
@@ -70,14 +87,6 @@ class KenwardRoger {
             spread_(j, k) * slopes_[j] * components_[k].normal * covariance_ / (v_[k] * v_[k]);
     }
     return covariance_ + lambda + lambda.transpose();
-  }
-
-  double Satterthwaite(int i) const {
-    Eigen::VectorXd slope(v_.size());
-    for (Eigen::Index k = 0; k < v_.size(); ++k) slope[k] = slopes_[k](i, i);
-    const double variance = slope.dot(spread_ * slope);
-    return variance > 0 ? 2.0 * covariance_(i, i) * covariance_(i, i) / variance
-                        : std::numeric_limits<double>::infinity();
   }
 
   // Their scaled F statistic of all 12; its k d' widened^-1 d / 12 ~ F(12, m) turned into a limit
@@ -118,6 +127,14 @@ class KenwardRoger {
 };
 
 }  // namespace
+
+NumberInterval IntervalOf(const Intervals& intervals,
+                          const Matrix12d& covariance,
+                          const Vector12d& weights) {
+  const double dof = DegreesOfFreedom(intervals, covariance, weights);
+  if (!(dof > 0.0)) return {std::numeric_limits<double>::quiet_NaN(), dof};
+  return {NormalOrT(dof) * std::sqrt(std::max(weights.dot(intervals.widened * weights), 0.0)), dof};
+}
 
 Intervals IntervalsOfKnownNoise(const Matrix12d& covariance) {
   return FromStudentAndFisher(

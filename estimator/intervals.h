@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include "estimator/variances.h"
 #include "residuals/pose_error.h"
 
@@ -13,7 +15,21 @@ struct Intervals {
   Vector12d degrees_of_freedom = Vector12d::Zero();
   // All 12 at once: d' covariance^-1 d <= ellipsoid for the difference d of estimate and truth.
   double ellipsoid = 0.0;
+
+  // For other numbers than the 12. The covariance with what the weights' own error adds; where the
+  // noise was estimated, its slope by each of the variances and their covariance (else empty).
+  Matrix12d widened = Matrix12d::Zero();
+  std::vector<Matrix12d> slopes;
+  Eigen::MatrixXd spread;
 };
+
+// The same of one number: a mix of the 12 by `weights`.
+struct NumberInterval {
+  double half_width = 0.0, degrees_of_freedom = 0.0;
+};
+NumberInterval IntervalOf(const Intervals& intervals,
+                          const Matrix12d& covariance,
+                          const Vector12d& weights);
 
 // The noise is known: the normal and the chi-square distribution.
 Intervals IntervalsOfKnownNoise(const Matrix12d& covariance);

@@ -35,6 +35,12 @@ constexpr Row kRows[] = {
     {"1/m^2", 1.0, "1/m²"},
 };
 
+// "-0" is said of nothing.
+std::string WithoutSignOfZero(std::string number) {
+  return number.find_first_not_of("-0.") == std::string::npos && number[0] == '-' ? number.substr(1)
+                                                                                  : number;
+}
+
 std::string WithUnit(const std::string& number, std::string_view unit) {
   return unit.empty() ? number : fmt::format("{} {}", number, unit);
 }
@@ -55,20 +61,25 @@ std::string QuantityText(double value, double standard_deviation, std::string_vi
   const double sigma = display.factor * standard_deviation;
   const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(sigma))), 0, 9);
   return WithUnit(
-      fmt::format("{:.{}f} ± {:.{}f}", display.factor * value, decimals, sigma, decimals),
+      fmt::format("{} ± {:.{}f}",
+                  WithoutSignOfZero(fmt::format("{:.{}f}", display.factor * value, decimals)),
+                  sigma,
+                  decimals),
       display.name);
 }
+
+bool IsRounding(double value) { return std::abs(value) < kRounding; }
 
 std::string MilliText(double value) {
   constexpr double kFourDecimals = 1e-6;  // two digits of them or more
   if (!std::isfinite(value)) return std::string(kNone);
   if (std::abs(value) >= kFourDecimals) return fmt::format("{:.4f}", 1e3 * value);
-  return std::abs(value) < kRounding ? "0" : fmt::format("{:.3g}", 1e3 * value);
+  return IsRounding(value) ? "0" : fmt::format("{:.3g}", 1e3 * value);
 }
 
 std::string SizeText(double value, std::string_view unit) {
   if (!std::isfinite(value)) return std::string(kNone);
-  if ((unit == "m" || unit == "rad") && std::abs(value) < kRounding) value = 0.0;
+  if ((unit == "m" || unit == "rad") && IsRounding(value)) value = 0.0;
   if (unit == "m" && std::abs(value) < 1e-4) return fmt::format("{:.3g} µm", 1e6 * value);
   if (unit == "rad" && std::abs(value) < 1e-4) return fmt::format("{:.3g} µrad", 1e6 * value);
   const DisplayUnit display = DisplayUnitOf(unit);
@@ -86,6 +97,8 @@ std::string ProbabilityText(double p) { return ProbabilityText(p, 0.0); }
 
 std::string ShareText(double share) {
   if (!std::isfinite(share)) return std::string(kNone);
+  constexpr double kNothing = 1e-9;  // of a whole, in any budget
+  if (std::abs(share) < kNothing) return "0 %";
   return fmt::format("{:.3g} %", 100.0 * share);
 }
 

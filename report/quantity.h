@@ -23,6 +23,9 @@ std::string QuantityText(double value, double standard_deviation, std::string_vi
 // would have none of them; "0" where nothing but rounding is left. A dash for no number.
 std::string MilliText(double value);
 
+// Whether a length in m or an angle in rad is nothing but the rounding of the numbers.
+bool IsRounding(double value);
+
 // Four digits and a unit that suits the size: 4.2e-5 m is "42 µm". A dash for no number.
 std::string SizeText(double value, std::string_view unit);
 

@@ -42,14 +42,8 @@ MountRows Rows(const Pose3d& pose, const Estimate& estimate, int first) {
   MountRows rows;
   rows.value = 1e3 * VectorFromPose(pose);
   rows.sigma = 1e3 * PoseVectorSigma(pose, estimate.covariance.block<6, 6>(first, first));
-  // A number is a mix of the three shifts or turns along the mount's own axes.
-  const auto& determined = estimate.observability.determined;
-  for (int block = 0; block < 2; ++block) {
-    const bool all = std::all_of(determined.begin() + first + 3 * block,
-                                 determined.begin() + first + 3 * block + 3,
-                                 [](bool d) { return d; });
-    std::fill_n(rows.determined.begin() + 3 * block, 3, all);
-  }
+  std::copy_n(
+      DeterminedNumbers(estimate.observability).begin() + first, 6, rows.determined.begin());
   return rows;
 }
 
@@ -108,24 +102,31 @@ std::string OutlierLines(const Estimate& e) {
 
 }  // namespace
 
-Vector6d PoseVectorSigma(const Pose3d& a_from_b, const Matrix6d& covariance) {
+Matrix6d PoseVectorByMotion(const Pose3d& a_from_b) {
   const Eigen::Matrix3d rotation = a_from_b.rotation.toRotationMatrix();
-  const Eigen::Vector3d angles = AnglesFromRotation(rotation);
-  Vector6d sigma;
-  sigma.head<3>() = (rotation * covariance.topLeftCorner<3, 3>() * rotation.transpose())
-                        .diagonal()
-                        .cwiseMax(0.0)
-                        .cwiseSqrt();
-  const double turn = std::sqrt(covariance.diagonal().tail<3>().maxCoeff());
-  if (std::abs(std::cos(angles.y())) < std::max(kGimbalCosine, kGimbalSigmas * turn)) {
-    sigma.tail<3>().setConstant(std::numeric_limits<double>::infinity());
-    return sigma;
+  Matrix6d j = Matrix6d::Zero();
+  j.topLeftCorner<3, 3>() = rotation;
+  j.bottomRightCorner<3, 3>() = AnglesByTurn(AnglesFromRotation(rotation));
+  return j;
+}
+
+std::array<bool, 12> DeterminedNumbers(const Observability& observability) {
+  std::array<bool, 12> determined;
+  for (int block = 0; block < 12; block += 3) {
+    const auto first = observability.determined.begin() + block;
+    const bool all = std::all_of(first, first + 3, [](bool d) { return d; });
+    std::fill_n(determined.begin() + block, 3, all);
   }
-  const Eigen::Matrix3d j = AnglesByTurn(angles);
-  sigma.tail<3>() = (j * covariance.bottomRightCorner<3, 3>() * j.transpose())
-                        .diagonal()
-                        .cwiseMax(0.0)
-                        .cwiseSqrt();
+  return determined;
+}
+
+Vector6d PoseVectorSigma(const Pose3d& a_from_b, const Matrix6d& covariance) {
+  const Matrix6d j = PoseVectorByMotion(a_from_b);
+  Vector6d sigma = (j * covariance * j.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+  const double pitch = AnglesFromRotation(a_from_b.rotation.toRotationMatrix()).y();
+  const double turn = std::sqrt(covariance.diagonal().tail<3>().maxCoeff());
+  if (std::abs(std::cos(pitch)) < std::max(kGimbalCosine, kGimbalSigmas * turn))
+    sigma.tail<3>().setConstant(std::numeric_limits<double>::infinity());
   return sigma;
 }
 

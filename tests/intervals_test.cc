@@ -79,6 +79,37 @@ TEST(Intervals, OfOneEstimatedLevelAreExactlyStudentAndFisher) {
   EXPECT_NEAR(intervals.ellipsoid, 12.0 * FisherFQuantile(0.95, 12.0, 8.0), 1e-5);
 }
 
+// The interval of a mix is that of a parameter in coordinates of which the mix is one.
+TEST(Intervals, OfMixesDoNotDependOnTheCoordinates) {
+  auto rng = SeededByTest();
+  std::vector<VarianceComponent> components;
+  for (int k = 0; k < 2; ++k) {
+    Eigen::MatrixXd j(15 + 9 * k, 12);
+    for (Eigen::Index i = 0; i < j.size(); ++i) j(i) = testing::Uniform(rng, -1, 1);
+    const Eigen::VectorXd e = (k + 1.0) * testing::Normal(rng, static_cast<int>(j.rows()));
+    components.push_back({j.transpose() * j, j.transpose() * e, e.squaredNorm(), double(j.rows())});
+  }
+  const Variances v =
+      EstimateVariances(components, Eigen::VectorXd::Ones(2), Eigen::VectorXd::Constant(2, 1e-20));
+  const Matrix12d covariance =
+      (components[0].normal / v.values[0] + components[1].normal / v.values[1]).inverse();
+  const Intervals intervals = IntervalsOfEstimatedNoise(covariance, components, v);
+  Matrix12d mixes;
+  for (int i = 0; i < 144; ++i) mixes(i) = testing::Uniform(rng, -1, 1);
+  const Matrix12d back = mixes.inverse();
+  for (VarianceComponent& c : components) c.normal = back.transpose() * c.normal * back;
+  const Intervals expected =
+      IntervalsOfEstimatedNoise(mixes * covariance * mixes.transpose(), components, v);
+  for (int i = 0; i < 12; ++i) {
+    const NumberInterval mix = IntervalOf(intervals, covariance, mixes.row(i));
+    EXPECT_NEAR(mix.half_width, expected.half_width[i], 1e-8 * expected.half_width[i]);
+    EXPECT_NEAR(mix.degrees_of_freedom,
+                expected.degrees_of_freedom[i],
+                1e-6 * expected.degrees_of_freedom[i]);
+  }
+  EXPECT_GT((expected.degrees_of_freedom - intervals.degrees_of_freedom).norm(), 0.1);
+}
+
 // Two levels, few poses: what the reported intervals promise is kept.
 TEST(Intervals, CoverWithFewPosesAndEstimatedNoise) {
   auto rng = SeededByTest();
