@@ -246,7 +246,7 @@ Audit MakeAudit(AuditInput input) {
                                            kPower,
                                            WeightedAsIn(input, audit.estimate));
     audit.held_out = HeldOutTestOf(UsedOf(audit.poses, audit.estimate));
-    if (!audit.grown)
+    if (!audit.grown && !audit.global.is_rounding)
       audit.readings = CheckReadings(
           input.dataset, input.observations, audit.estimate, {kAlpha, kPower, input.threads});
   }

@@ -29,7 +29,10 @@ std::vector<bool> UsedPosesOf(const Audit& audit) {
 void AddOutliers(const Audit& audit, HtmlPage* page) {
   page->Heading("Outliers");
   const Estimate& estimate = audit.estimate;
-  if (estimate.outliers.empty())
+  const bool is_rounding = audit.global.is_rounding;
+  if (is_rounding)
+    page->Paragraph("Neither poses nor readings are tested: " + std::string(kOnlyRounding) + ".");
+  else if (estimate.outliers.empty())
     page->Paragraph("No pose contradicts the others (at 1 % for all poses together).");
   HtmlTable table = {{{"pose"}, {"why"}, {"p", true}, {"used"}}, {}};
   for (const Outlier& outlier : estimate.outliers) {
@@ -40,6 +43,7 @@ void AddOutliers(const Audit& audit, HtmlPage* page) {
                           is_used ? "yes" : "left out"});
   }
   if (!table.rows.empty()) page->Table(table);
+  if (is_rounding) return;
   if (!audit.poses.empty()) page->Figure(SmallestChart(audit.poses, UsedPosesOf(audit)));
   if (audit.readings) return AddReadings(*audit.readings, page);
   if (audit.grown)

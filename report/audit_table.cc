@@ -64,6 +64,8 @@ std::string ChangeLine(const Change& change) {
         LargestOf(change.over_own),
         path,
         change.shared.poses);
+  if (change.is_of_exact)
+    return fmt::format("  changed        not tested since {}: {}\n", path, kOfExactData);
   return fmt::format("  changed        chi-square {:.4g} of 12 since {} (p {}{})\n",
                      change.chi_square,
                      path,

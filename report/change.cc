@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "estimator/mount_change.h"
+#include "estimator/target_error.h"
 
 namespace hexcal {
 namespace {
@@ -23,6 +25,26 @@ std::vector<std::string> UsedReadings(const Estimate& estimate, const DatasetRea
     if (pose.weight > 0.0) used.push_back(HexOf(readings[row].hash));
   }
   return used;
+}
+
+// Beyond anything that was measured.
+bool IsOfExactData(const Matrix12d& covariance) {
+  constexpr double kRounding = 1e-12;  // m, rad
+  return std::sqrt(covariance.diagonal().maxCoeff()) < kRounding;
+}
+
+// One standard deviation of how far the point has moved, along that way.
+double SigmaOfMove(const EarlierResult& earlier,
+                   const Estimate& now,
+                   const Pose3d& centre,
+                   const Eigen::Vector3d& p_in_tool,
+                   const Eigen::Vector3d& moved) {
+  const auto variance = [&](const BaseAndTool& mounts, const Matrix12d& covariance) {
+    const Vector12d j = TargetJacobian(mounts, centre, p_in_tool).transpose() * moved.normalized();
+    return j.dot(covariance * j);
+  };
+  return std::sqrt(variance(earlier.mounts, earlier.covariance) +
+                   variance(now.mounts, now.covariance));
 }
 
 }  // namespace
@@ -43,7 +65,8 @@ Change ChangeOf(const EarlierResult& earlier,
     change.over_own[i] = now.observability.determined[i]
                              ? change.difference[i] / std::sqrt(now.covariance(i, i))
                              : kNaN;
-  const bool is_independent = change.shared.poses == 0;
+  change.is_of_exact = IsOfExactData(earlier.covariance) || IsOfExactData(now.covariance);
+  const bool is_independent = change.IsTested();
   change.sigmas = is_independent ? found.sigmas : Vector12d::Constant(kNaN).eval();
   change.chi_square = is_independent ? found.chi_square : kNaN;
   change.p_value = is_independent ? found.p_value : kNaN;
@@ -51,9 +74,14 @@ Change ChangeOf(const EarlierResult& earlier,
     return Eigen::Vector3d(mounts.world_from_base * centre * mounts.platform_from_tool *
                            point.p_in_tool);
   };
-  for (const NamedPoint& point : points)
-    change.at_points.push_back(
-        (predicted(now.mounts, point) - predicted(earlier.mounts, point)).norm());
+  const bool is_determined = std::all_of(
+      change.sigmas.begin(), change.sigmas.end(), [](double s) { return std::isfinite(s); });
+  for (const NamedPoint& point : points) {
+    const Eigen::Vector3d moved = predicted(now.mounts, point) - predicted(earlier.mounts, point);
+    change.at_points.push_back(moved.norm());
+    change.sigma_at_points.push_back(
+        is_determined ? SigmaOfMove(earlier, now, centre, point.p_in_tool, moved) : kNaN);
+  }
   return change;
 }
 

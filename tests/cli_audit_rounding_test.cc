@@ -60,8 +60,35 @@ TEST(CliAuditRounding, SaysThatNothingIsKnownOfTheNoiseAndPassesNothing) {
   const std::string page = folder.Read("out/paper/report.html");
   EXPECT_THAT(page, HasSubstr(std::string("Here ") + kSentence));
   EXPECT_THAT(page, Not(HasSubstr("Birge")));
+  // What is not tested is not said to agree.
+  EXPECT_THAT(page, HasSubstr(std::string("Neither poses nor readings are tested: ") + kSentence));
+  EXPECT_THAT(page, Not(HasSubstr("contradicts the others (at")));
+  EXPECT_THAT(page, Not(HasSubstr("would be found from")));
+  EXPECT_THAT(page,
+              HasSubstr("<td>base.dx, mm</td><td class=\"number\">0</td>"
+                        "<td class=\"number\">–</td><td class=\"number\">–</td>"));
+  EXPECT_THAT(run.out, Not(HasSubstr("single marker readings")));
   EXPECT_THAT(page, Not(HasSubstr("not determined</td>")));
   EXPECT_THAT(page, Not(HasSubstr("0000000 times enlarged")));
+}
+
+// Between exact data and others nothing is known of one side's noise: no chance is reckoned.
+TEST(CliAuditRounding, TestsNoChangeOfExactData) {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::vector<std::string>& words) {
+    return RunHexcal({words, folder.Path("")});
+  };
+  ASSERT_EQ(run({"calibrate", kExamples + "/neurobot/dataset.yaml", "--out=first"}).status, 0);
+  const ProgramResult result = run({"audit",
+                                    kExamples + "/paper/dataset.yaml",
+                                    "--previous=first/neurobot/result.json",
+                                    "--out=out"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const Json change = Json::parse(folder.Read("out/paper/audit.json"))["change"];
+  EXPECT_TRUE(change["p_value"].is_null() && change["chi_square"].is_null());
+  EXPECT_TRUE(change["sigmas"][0].is_null());
+  EXPECT_THAT(result.out, HasSubstr("not tested since first/neurobot/result.json: in one of"));
+  EXPECT_THAT(folder.Read("out/paper/report.html"), HasSubstr("Not tested: in one of the two"));
 }
 
 }  // namespace

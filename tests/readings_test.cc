@@ -149,5 +149,26 @@ TEST(ChangeOf, IsTestedOnlyWhereNoReadingIsInBoth) {
   EXPECT_FALSE(ChangeOf(Earlier(now, {}), now, readings, {}, {}).shared.is_known);
 }
 
+// By hand: along x four variances of 1e-10 add, of base and tool now and then.
+TEST(ChangeOf, SaysHowSureAPointsMoveIsWhereItIsTested) {
+  const DatasetReadings readings = ReadingsOf(Measured());
+  Estimate now = Calibrated();
+  const EarlierResult earlier = Earlier(now, readings);
+  now.mounts.world_from_base.translation.x() = 3e-5;
+  DatasetReadings others = readings;
+  for (PoseReadings& pose : others) ++pose.hash;
+  const std::vector<NamedPoint> points = {{"tip"}};
+  const Change change = ChangeOf(earlier, now, others, points, {});
+  EXPECT_NEAR(change.at_points[0], 3e-5, 1e-15);
+  EXPECT_NEAR(change.sigma_at_points[0], 2e-5, 1e-12);
+  EXPECT_TRUE(std::isnan(ChangeOf(earlier, now, readings, points, {}).sigma_at_points[0]));
+
+  now.covariance *= 1e-20;  // of exact data
+  const Change exact = ChangeOf(earlier, now, others, points, {});
+  EXPECT_TRUE(exact.is_of_exact);
+  EXPECT_TRUE(std::isnan(exact.p_value) && std::isnan(exact.sigmas[0]));
+  EXPECT_TRUE(std::isnan(exact.sigma_at_points[0]));
+}
+
 }  // namespace
 }  // namespace hexcal
