@@ -11,7 +11,7 @@ namespace hexcal {
 void AddResidualPictures(const PoseResiduals& residuals, const Scene& scene, HtmlPage* page) {
   page->Figures(ResidualCharts(residuals));
   page->Figures(CoordinateCharts(residuals));
-  page->Figure(SceneChart(scene));
+  for (const Chart& chart : SceneCharts(scene)) page->Figure(chart);
   page->Figures(DistributionCharts(residuals));
   const std::vector<Chart> legs = LegCharts(residuals);
   if (legs.empty())

@@ -33,8 +33,8 @@ Scene MakeScene(const Dataset& dataset, const Observations& observations, const 
 // Before and after.
 Scene MakeScene(const Dataset& dataset, const Discovery& discovery);
 
-// Frames, legs, markers, what is left over at every pose and the ellipsoid that holds the predicted
-// tool with 95 %, the last two enlarged.
-Chart SceneChart(const Scene& scene);
+// The machine: frames, legs, outlines, markers, poses. And nearer by, what is left over at every
+// pose and the ellipsoid that holds the predicted tool with 95 %, both enlarged.
+std::vector<Chart> SceneCharts(const Scene& scene);
 
 }  // namespace hexcal

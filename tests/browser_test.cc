@@ -90,12 +90,13 @@ TEST_F(InBrowser, ADiscoveryIsDrawnAndSaysWhatItsJsonSays) {
   const std::string html = Html(discovery);
   const std::string dom = Dom(html);
   const int pictures = Count(html, "class=\"plot\"");
-  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 22);
+  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 23);
   EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), pictures);
-  EXPECT_GE(Count(dom, "<svg class=\"main-svg\""), pictures - 1);
+  EXPECT_GE(Count(dom, "<svg class=\"main-svg\""), pictures - 2);
   EXPECT_LT(html.size(), std::size_t{8} << 20);
   for (const char* title : {"Position residuals over time",
-                            "The machine, and what is left over",
+                            "The machine, and where the tool was",
+                            "What is left over, where the tool was",
                             "Residuals in standard deviations of the noise",
                             "Residuals against those of a normal sample (Q-Q)",
                             "Likeness of neighbours in the order of visit",
@@ -151,7 +152,7 @@ TEST_F(InBrowser, HostileNamesAreOnlyNames) {
               AllOf(HasSubstr("<title>Gap discovery: demo</title>"),
                     Not(HasSubstr("<img")),
                     HasSubstr("&lt;img")));
-  EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), FlatCharts().empty() ? 0 : 22);
+  EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), FlatCharts().empty() ? 0 : 23);
 }
 
 TEST_F(InBrowser, PicturesInSpaceAndFlatOnesStandOnOnePage) {

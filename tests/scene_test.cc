@@ -72,25 +72,31 @@ TEST_F(SceneTest, NamesAreEscapedAndFactorsAreSaid) {
   Scene scene = Make();
   scene.markers[0].first = "<b>";
   scene.arrows[0].label = "<i>";
-  const Chart chart = SceneChart(scene);
-  EXPECT_TRUE(chart.is_in_space);
-  const std::string data = chart.data.dump();
-  EXPECT_EQ(data.find("<b>"), std::string::npos);
-  EXPECT_EQ(data.find("<i>"), std::string::npos);
-  EXPECT_THAT(chart.shows, HasSubstr("times enlarged"));
-  EXPECT_EQ(chart.table.rows.size(), 60u);
+  const std::vector<Chart> charts = SceneCharts(scene);
+  ASSERT_EQ(charts.size(), 2u);
+  for (const Chart& chart : charts) {
+    EXPECT_TRUE(chart.is_in_space);
+    const std::string data = chart.data.dump();
+    EXPECT_EQ(data.find("<b>"), std::string::npos);
+    EXPECT_EQ(data.find("<i>"), std::string::npos);
+  }
+  EXPECT_THAT(charts[1].shows, HasSubstr("times enlarged"));
+  EXPECT_EQ(charts[1].table.rows.size(), 60u);
 }
 
 TEST_F(SceneTest, TheWordsNameOnlyWhatIsDrawn) {
   Scene scene = Make();
-  EXPECT_THAT(SceneChart(scene).shows, HasSubstr("frames W, B, A and T, legs, markers at pose"));
+  const auto shows = [&](int i) { return SceneCharts(scene)[i].shows; };
+  EXPECT_THAT(
+      shows(0),
+      HasSubstr("frames W, B, A and T, legs, outlines of base and platform, markers at pose"));
   scene.legs.clear();
-  EXPECT_THAT(SceneChart(scene).shows, HasSubstr("frames W, B, A and T, markers at pose"));
+  EXPECT_THAT(shows(0), HasSubstr("frames W, B, A and T, markers at pose"));
   scene.markers.clear();
-  EXPECT_THAT(SceneChart(scene).shows, HasSubstr("frames W, B, A and T at pose"));
-  EXPECT_THAT(SceneChart(scene).shows, HasSubstr("ellipsoid"));
+  EXPECT_THAT(shows(0), HasSubstr("frames W, B, A and T at pose"));
+  EXPECT_THAT(shows(1), HasSubstr("ellipsoid"));
   scene.covariance.setZero();
-  EXPECT_THAT(SceneChart(scene).shows, Not(HasSubstr("ellipsoid")));
+  EXPECT_THAT(shows(1), Not(HasSubstr("ellipsoid")));
 }
 
 // Of a discovery every pose has two arrows, turned from the tool's axes into the world's.
@@ -109,7 +115,7 @@ TEST(SceneOfADiscovery, HasArrowsBeforeAndAfter) {
     EXPECT_TRUE(
         MatrixNear(scene.arrows[i].along, turn * Eigen::Vector3d(pose.after.head<3>()), 1e-15));
   }
-  const Chart chart = SceneChart(scene);
+  const Chart chart = SceneCharts(scene)[1];
   EXPECT_THAT(chart.shows, HasSubstr("before and after what was found"));
   EXPECT_EQ(chart.table.rows[3].size(), 7u);
   EXPECT_EQ(chart.table.rows[3][4], fmt::format("{:.4f}", 1e3 * scene.arrows[3].before->x()));
@@ -117,9 +123,7 @@ TEST(SceneOfADiscovery, HasArrowsBeforeAndAfter) {
   EXPECT_FALSE(MakeScene(testing::DatasetOf(discovery), discovery).arrows[0].before.has_value());
 }
 
-// All points are within the ranges, and a mm is as long along each axis.
-TEST_F(SceneTest, TheBoxHoldsAllPointsAtOneScale) {
-  const Chart chart = SceneChart(Make());
+void ExpectBoxAtOneScale(const Chart& chart) {
   const auto& scene = chart.layout["scene"];
   double diagonal = 0.0;
   std::vector<double> scales;
@@ -140,14 +144,78 @@ TEST_F(SceneTest, TheBoxHoldsAllPointsAtOneScale) {
   EXPECT_NEAR(diagonal, 4.0, 1e-12);
 }
 
+// All points are within the ranges, and a mm is as long along each axis.
+TEST_F(SceneTest, TheBoxHoldsAllPointsAtOneScale) {
+  for (const Chart& chart : SceneCharts(Make())) ExpectBoxAtOneScale(chart);
+}
+
+// What is to be read is not a clot: the longest arrow and the ellipsoid are a good part of the
+// picture that they are in, which is of the poses, not of the machine.
+TEST_F(SceneTest, ArrowsAndEllipsoidAreLargeInTheirPicture) {
+  const Chart chart = SceneCharts(Make())[1];
+  const auto extent = [](const nlohmann::ordered_json& trace, const char* axis) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const auto& x : trace[axis])
+      if (!x.is_null())
+        low = std::min(low, x.get<double>()), high = std::max(high, x.get<double>());
+    return Eigen::Vector2d(low, high);
+  };
+  double box = 0.0, arrow = 0.0, ellipsoid = 0.0;
+  for (const char* axis : {"x", "y", "z"}) {
+    const auto& range = chart.layout["scene"][std::string(axis) + "axis"]["range"];
+    box = std::max(box, range[1].get<double>() - range[0].get<double>());
+  }
+  for (const auto& trace : chart.data) {
+    const std::string name = trace["name"];
+    if (name.rfind("95 %", 0) == 0)
+      for (const char* axis : {"x", "y", "z"}) {
+        const Eigen::Vector2d ends = extent(trace, axis);
+        ellipsoid = std::max(ellipsoid, ends[1] - ends[0]);
+      }
+    if (name.rfind("left over", 0) == 0)
+      for (std::size_t i = 0; i + 1 < trace["x"].size(); i += 3) {
+        Eigen::Vector3d along;
+        for (int k = 0; k < 3; ++k) {
+          const auto& list = trace[std::string(1, "xyz"[k])];
+          along[k] = list[i + 1].get<double>() - list[i].get<double>();
+        }
+        arrow = std::max(arrow, along.norm());
+      }
+  }
+  EXPECT_GT(arrow, 0.05 * box);
+  EXPECT_GT(ellipsoid, 0.05 * box);
+  EXPECT_LT(ellipsoid, 0.8 * box);
+}
+
+// Seen from above the platform's outline goes round once and does not cross itself.
+TEST_F(SceneTest, TheOutlineOfThePlatformGoesRoundOnce) {
+  const Scene scene = Make();
+  const Chart chart = SceneCharts(scene)[0];
+  for (const auto& trace : chart.data) {
+    if (trace["name"] != "platform") continue;
+    ASSERT_EQ(trace["x"].size(), 7u);
+    const Pose3d platform_from_world = scene.world_from_platform.Inverse();
+    const auto at = [&](int i) {
+      return Eigen::Vector3d(platform_from_world *
+                             Eigen::Vector3d(1e-3 * trace["x"][i].get<double>(),
+                                             1e-3 * trace["y"][i].get<double>(),
+                                             1e-3 * trace["z"][i].get<double>()));
+    };
+    for (int i = 0; i < 6; ++i) EXPECT_GT(at(i).cross(at(i + 1)).z(), 0.0);
+    return;
+  }
+  FAIL() << "no outline";
+}
+
 // No noise, no legs: still a picture, without numbers that are none.
 TEST_F(SceneTest, OfExactDataHasNoInfinity) {
   Scene scene = Make();
   scene.legs.clear(), scene.markers.clear();
   scene.covariance.setZero();
   for (Scene::Arrow& arrow : scene.arrows) arrow.along.setZero();
-  for (const auto& trace : SceneChart(scene).data)
-    for (const auto& x : trace["x"]) EXPECT_TRUE(x.is_null() || std::isfinite(x.get<double>()));
+  for (const Chart& chart : SceneCharts(scene))
+    for (const auto& trace : chart.data)
+      for (const auto& x : trace["x"]) EXPECT_TRUE(x.is_null() || std::isfinite(x.get<double>()));
 }
 
 }  // namespace
