@@ -35,7 +35,7 @@ class Comparing {
     monte_carlo.seed = options_.seed;
     monte_carlo.threads = options_.threads;
     monte_carlo.keep_draws = options_.keep_draws;
-    monte_carlo.progress = ProgressOf("repeating the measurement");
+    monte_carlo.progress = ProgressOf("repeating measurements");
     comparison_.propagation =
         options_.repeat
             ? options_.repeat(monte_carlo)
@@ -122,10 +122,10 @@ class Comparing {
           ErrorCovariance(o, observations_, reference.mounts.platform_from_tool, levels_)));
     ConvergenceMapOptions map{options_.starts, options_.seed, options_.threads, {}};
     LinearizedOptions linearized = options_.calibrate.linearized;
-    map.progress = ProgressOf("mapping the paper's iteration");
+    map.progress = ProgressOf("mapping paper iteration");
     linearized.error = LinearizedOptions::Error::kPaper;
     comparison_.paper_map = MapConvergence(observations_.items, {}, reference, linearized, map);
-    map.progress = ProgressOf("mapping the twist iteration");
+    map.progress = ProgressOf("mapping twist iteration");
     linearized.error = LinearizedOptions::Error::kTwist;
     comparison_.twist_map =
         MapConvergence(observations_.items, whiteners, reference, linearized, map);

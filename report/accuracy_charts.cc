@@ -33,8 +33,10 @@ Chart CorrelationChart(const Estimate& estimate) {
       "how the errors of base and tool hang together: 1 and -1 always, 0 not at all (each small "
       "motion along and about the axes of its own frame).";
   chart.good =
-      "pale off the diagonal. Strong pairs are not wrong: the data tell their sum better than each "
-      "alone, and the uncertainty of a point of the tool takes that into account.";
+      "pale off the diagonal. Strong pairs are not wrong: the data tell the sum of a negative "
+      "pair, the "
+      "difference of a positive one, better than each number alone, and the uncertainty of a point "
+      "of the tool takes that into account.";
   chart.table = {{{""}}, {}};
   Json names = Json::array(), rows = Json::array();
   for (int i = 0; i < 12; ++i) {

@@ -59,7 +59,7 @@ void AddVerdict(const Audit& audit, HtmlPage* page) {
                           ShareText(d.requirement.probability),
                           fmt::format("{:.4g}", 1e3 * d.requirement.limit),
                           is_known ? MilliText(d.value) : "–",
-                          is_known ? MilliText(d.guard) : "–"});
+                          is_known ? fmt::format("{:.3g}", 1e3 * d.guard) : "–"});
     if (is_known)
       places.push_back(fmt::format("{}: worst at {}", d.requirement.name, WordsOf(d.worst)));
   }

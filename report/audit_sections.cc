@@ -21,21 +21,29 @@ void AddAccuracy(const Audit& audit, HtmlPage* page) {
   page->Section("Accuracy over the workspace");
   HtmlTable box = {{{"T_A^B, Eq. (2)"}, {"from", true}, {"to", true}}, {}};
   const auto text = [&](int number, int end) {
-    const double value = audit.workspace.box[number][end];
+    const double stated = audit.workspace.box[number][end];
+    const double value = IsRounding(stated) ? 0.0 : stated;
     return number < 3 ? fmt::format("{:.4g}", 1e3 * value)
                       : fmt::format("{:.4g} ({:.4g}°)", 1e3 * value, value * 180.0 / kPi);
   };
   for (int i = 0; i < 6; ++i) box.rows.push_back({kNumbers[i], text(i, 0), text(i, 1)});
   page->Table(box);
   page->Note(fmt::format(
-      "{} {} places of a grid over it were looked at{}.",
+      "{} {} places of a grid over it {}{}.",
       audit.workspace.is_stated ? "As the requirement file has it." : "What the poses span.",
       audit.places,
+      audit.points.empty() ? "would be looked at" : "were looked at",
       audit.workspace.IsMeasured()
           ? ""
           : fmt::format("; it reaches beyond all poses that were measured, in {}: nothing but the "
                         "model speaks there",
                         BeyondPoses(audit.workspace))));
+  if (audit.points.empty())
+    return page->Paragraph(
+        audit.places == 0
+            ? "Nothing is said of a place: none of them is one that the model reaches."
+            : "Nothing is said of a place: the poses do not determine base and tool, or the fit "
+              "has not converged.");
   HtmlTable table = {{{"point"},
                       {"where"},
                       {"RMS, mm", true},

@@ -30,7 +30,9 @@ void AddRepeated(const Audit& audit, HtmlPage* page) {
   page->Table(table);
   page->Note(fmt::format(
       "In the manner of ISO 9283:1998, of the worst of the repeated poses, with the tracker's "
-      "noise in them. The standard asks for five poses in a cube, {} cycles each; nothing here "
+      "noise in them. Not held out: AP is from where the calibration that used these poses, too, "
+      "predicts them, and so a little small. The standard asks for five poses in a cube, {} cycles "
+      "each; nothing here "
       "claims to be that.",
       kCycles));
 }

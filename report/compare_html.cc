@@ -91,9 +91,10 @@ std::string CompareHtml(const std::string& dataset,
                                       : "certified for even weights",
                (certificate.exact
                     ? "Of the nonlinear solution, with its own weights: "
-                    : "Not of the problem that the solution on this page solves, whose weights "
-                      "differ by axis or pose, but of the same poses with one weight for all "
-                      "coordinates of a pose and one for its angles: ") +
+                    : "Certificates exist for poses that count evenly: one weight for all "
+                      "coordinates and one for all angles. The weights of the solution on this "
+                      "page differ by axis or pose, so that the certificate is of these poses with "
+                      "even weights, not of that solution itself: ") +
                    certificate.why + ".");
   page.Section("The methods");
   AddMethods(comparison, &page);

@@ -17,6 +17,19 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMilli = 1e3;
 
+// The lengths alone: the residuals are in the table of the map.
+HtmlTable LengthTable(const PoseResiduals& residuals, const DrawnPoses& drawn) {
+  HtmlTable table = {{{"pose"}}, {}};
+  for (int leg = 0; leg < 6; ++leg)
+    table.columns.push_back({fmt::format("length of leg {}, mm", leg + 1), true});
+  for (const std::size_t i : drawn.indices) {
+    table.rows.push_back({residuals.labels[i]});
+    for (const double length : residuals.leg_lengths[i])
+      table.rows.back().push_back(MilliText(length));
+  }
+  return table;
+}
+
 Chart LegLengthChart(const PoseResiduals& residuals) {
   const DrawnPoses drawn(residuals.labels);
   Chart chart;
@@ -25,7 +38,8 @@ Chart LegLengthChart(const PoseResiduals& residuals) {
       "by how much each leg would have to be longer to explain the difference (mm, up), against "
       "its reported length (mm, to the right){}.{}",
       residuals.before ? ", before and after" : "",
-      drawn.note + LeftOutNote(drawn.Of(residuals.used)));
+      " The table has the lengths, that of the map below the residuals." + drawn.note +
+          LeftOutNote(drawn.Of(residuals.used)));
   chart.good = fmt::format(
       "points about zero{}. A level off zero is an offset, a slope a gain, a bend a nonlinearity, "
       "a wave a screw or encoder; one leg alone names the leg.",
@@ -52,6 +66,7 @@ Chart LegLengthChart(const PoseResiduals& residuals) {
     if (leg > 0) y["matches"] = "y";
     chart.layout[AxisKey("yaxis", leg + 1)] = y;
   }
+  chart.table = LengthTable(residuals, drawn);
   chart.layout["grid"] = {
       {"rows", 3}, {"columns", 2}, {"pattern", "independent"}, {"xgap", 0.18}, {"ygap", 0.35}};
   chart.layout["height"] = 640;

@@ -52,16 +52,17 @@ void AddVerdict(const PivotResult& result, HtmlPage* page) {
         Tone::kWarn,
         "verdict",
         "determined, but doubtful",
-        fmt::format("{} So the tip may be further off than the {} that its three standard "
-                    "deviations together come to (RMS); {} RMS are left over.",
-                    doubts,
-                    rms,
-                    left_over));
+        fmt::format(
+            "{} So the tip may be further off than the {} that its three standard "
+            "deviations together say (root of the sum of their squares); {} RMS are left over.",
+            doubts,
+            rms,
+            left_over));
   page->Verdict(Tone::kGood,
                 "verdict",
                 "determined",
-                fmt::format("The tip is known to {} (RMS of its three standard deviations "
-                            "together); {} RMS are left over.",
+                fmt::format("The tip is known to {} (root of the sum of squares of its three "
+                            "standard deviations); {} RMS are left over.",
                             rms,
                             left_over));
 }

@@ -214,6 +214,11 @@ class Reader {
     const MapReader map(node, "a requirement", {"name", "point", "over", "limit", "probability"});
     Requirement requirement;
     requirement.name = ReadText(map.Required("name"), "the name of the requirement");
+    for (const Requirement& other : result_.requirements)
+      if (other.name == requirement.name)
+        throw InputError(map.Required("name").where,
+                         fmt::format("a second requirement '{}'", requirement.name),
+                         "a name of its own for each");
     requirement.point = PointOf(map.Required("point"));
     if (const YamlNode* over = map.Optional("over"))
       requirement.over = ReadChoice<Requirement::Places>(

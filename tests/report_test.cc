@@ -196,6 +196,17 @@ TEST(MilliText, HasDigitsHoweverSmallTheNumber) {
   EXPECT_EQ(MilliText(std::numeric_limits<double>::quiet_NaN()), "–");
 }
 
+TEST(QuantityText, HasNoSignOfZero) {
+  EXPECT_EQ(QuantityText(-3e-7, 1.4e-5, "1"), "0 ± 14 ppm");
+  EXPECT_EQ(QuantityText(-3e-5, 1.4e-5, "1"), "-30 ± 14 ppm");
+  EXPECT_EQ(QuantityText(-3e-6, 4e-3, "m"), "0.0 ± 4.0 mm");
+}
+
+TEST(ShareText, OfNothingIsZero) {
+  EXPECT_EQ(ShareText(1.24e-23), "0 %");
+  EXPECT_EQ(ShareText(0.125), "12.5 %");
+}
+
 TEST(ResultTable, OfMarkersSaysTheirNoiseAndWhoseItIs) {
   Estimate e = MakeEstimate();
   const ResultHeader header = {"demo", "nonlinear", "marker", ""};

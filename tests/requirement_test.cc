@@ -80,6 +80,8 @@ TEST_F(RequirementFile, IsRefusedWithThePlaceAndWhatWasExpected) {
   EXPECT_THAT(Refusal("point: tip", "point: tpi"),
               AllOf(HasSubstr("r.yaml:12:"), HasSubstr("'tpi'")));
   EXPECT_THAT(Refusal("name: flange, xyz", "name: tip, xyz"), HasSubstr("a second point 'tip'"));
+  EXPECT_THAT(Refusal("name: rest", "name: drilling"),
+              AllOf(HasSubstr("r.yaml:13:"), HasSubstr("a second requirement 'drilling'")));
   EXPECT_THAT(Refusal("xyz: [0, 0, 0]", "xyz: [0, 0]"), HasSubstr("r.yaml:6:"));
   EXPECT_THAT(Refusal("x: [-10, 10]", "x: [10, -10]"), HasSubstr("[low, high]"));
   EXPECT_THAT(Refusal("rx: [-5, 5], ", ""), HasSubstr("rx"));

@@ -225,8 +225,9 @@ std::string HtmlPage::Html() const {
         "stand in place of the pictures.</p>\n";
   else if (!scripts.empty())
     html +=
-        "<noscript><p class=\"note\">Scripts are off: the numbers of each picture are in the table "
-        "below it.</p></noscript>\n";
+        "<noscript><p class=\"note\">Scripts are off: no picture is drawn. What each would show is "
+        "in "
+        "the table below or above it.</p></noscript>\n";
   if (body_.find("<details>") != std::string::npos)
     html +=
         "<p class=\"note paper\">Printed without the tables of numbers below the pictures: those "
