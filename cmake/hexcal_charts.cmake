@@ -21,6 +21,8 @@ function(hexcal_embed file function out)
   endif()
   set(source "${CMAKE_CURRENT_BINARY_DIR}/${function}.cc")
   configure_file("${PROJECT_SOURCE_DIR}/cmake/embedded_text.cc.in" "${source}" @ONLY)
+  # A page is longer than the text that every compiler must take.
+  set_source_files_properties("${source}" PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
   set(${out} "${source}" PARENT_SCOPE)
 endfunction()
 
