@@ -64,7 +64,9 @@ class Calibration {
       FitByTwist();
     else
       FitNonlinear();
-    if (estimate_.converged) RefuseBadFit();
+    if (estimate_.converged)
+      Refuse(WhyNoSolution(few_, estimate_.mounts, ChosenStart() != Start::kClosedForm));
+    if (HasLoss()) RefuseLostPoses();
     if (!estimate_.converged && weighting_.levels_estimated) {
       TakeResidualsAsNoise();
       sums_.reset();
@@ -75,7 +77,6 @@ class Calibration {
 
  private:
   bool IsLinearized() const { return options_.solver == Solver::kLinearized; }
-
   bool HasLoss() const { return options_.loss.kind != LossKind::kNone; }
 
   // A loss needs a start that outliers have not drawn to themselves, and a noise without them that
@@ -178,8 +179,7 @@ class Calibration {
       if (round > 0 && (change < 1.0 || (change < kStalled && change > 0.5 * last))) return;
       last = change;
     }
-    estimate_.converged = false;
-    estimate_.message = fmt::format("the weights did not settle within {} rounds", kMaxRounds);
+    Refuse(fmt::format("the weights did not settle within {} rounds", kMaxRounds));
   }
 
   // The same with the weights moved along at every iteration, once the first ones have brought it
@@ -195,8 +195,7 @@ class Calibration {
     const int at_most = std::exchange(options.max_iterations, 1);
     do {
       if (static_cast<int>(estimate_.iterations.size()) > at_most) {
-        estimate_.converged = false;
-        estimate_.message = fmt::format("the weights did not settle within {} iterations", at_most);
+        Refuse(fmt::format("the weights did not settle within {} iterations", at_most));
         return;
       }
       levels = weighting_.levels;
@@ -206,7 +205,6 @@ class Calibration {
   }
 
   bool LevelsMove() const { return weighting_.levels_estimated && !HasLoss(); }
-
   bool WeightsMove() const { return LevelsMove() || observations_.has_robot_noise; }
 
   void EstimateLevels() {
@@ -229,12 +227,20 @@ class Calibration {
   }
 
   // What has converged may still be no solution.
-  void RefuseBadFit() {
-    const std::string why =
-        WhyNoSolution(few_, estimate_.mounts, ChosenStart() != Start::kClosedForm);
-    if (why.empty()) return;
+  bool Refuse(const std::string& why) {
+    if (why.empty()) return false;
     estimate_.converged = false;
     estimate_.message = why;
+    return true;
+  }
+
+  // All count again then, so that what is left over has a size.
+  void RefuseLostPoses() {
+    if (!Refuse(
+            WhyNothingCounts(observations_.items, Whiteners(), estimate_.mounts, weighting_.loss)))
+      return;
+    weighting_.loss = {};
+    sums_.reset();
   }
 
   // The records of a later round begin at the end of the one before.

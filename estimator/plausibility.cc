@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "estimator/plausibility.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "estimator/start.h"
 
@@ -38,6 +41,29 @@ std::string WhyNoSolution(const std::vector<Observation>& observations,
       MisfitOf(observations, FindStart(observations)).Total() < kMuchBetter * misfit.Total())
     return "it ended in a local minimum: --start=closed_form finds a better one";
   return "";
+}
+
+std::string WhyNothingCounts(const std::vector<Observation>& observations,
+                             const std::vector<Matrix6d>& whiteners,
+                             const BaseAndTool& mounts,
+                             const RobustLoss& loss) {
+  std::size_t counted = 0;
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    const Observation& o = observations[i];
+    const Vector6d e = PoseError(mounts, o.base_from_platform, o.world_from_tool);
+    double rho, weight;
+    loss.Evaluate((whiteners[i] * e).squaredNorm(), &rho, &weight);
+    counted += weight > 0.0;
+  }
+  if (6 * counted > 12) return "";
+  return fmt::format(
+      "the loss {} leaves {} of {} poses a weight, too few for base and tool: its scale of {} "
+      "sigma "
+      "is smaller than the noise, or the noise is larger than stated (--loss_scale)",
+      NameOf(loss.kind),
+      counted,
+      observations.size(),
+      loss.scale);
 }
 
 }  // namespace hexcal

@@ -6,6 +6,7 @@
 
 #include "estimator/observations.h"
 #include "residuals/pose_error.h"
+#include "residuals/robust_loss.h"
 
 namespace hexcal {
 
@@ -14,5 +15,12 @@ namespace hexcal {
 std::string WhyNoSolution(const std::vector<Observation>& observations,
                           const BaseAndTool& mounts,
                           bool could_be_local);
+
+// Why a loss has left nothing to fit: the poses that it does not weigh down to nothing tell no more
+// than the 12 parameters take. Empty where they do.
+std::string WhyNothingCounts(const std::vector<Observation>& observations,
+                             const std::vector<Matrix6d>& whiteners,
+                             const BaseAndTool& mounts,
+                             const RobustLoss& loss);
 
 }  // namespace hexcal

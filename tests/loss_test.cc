@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Calibration under a robust loss.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "estimator/calibrate.h"
 #include "testing/matchers.h"
@@ -14,6 +16,7 @@ namespace {
 
 using testing::AnyMounts;
 using testing::Difference;
+using ::testing::HasSubstr;
 using testing::SeededByTest;
 using testing::UnknownNoise;
 
@@ -34,6 +37,25 @@ CalibrateOptions With(LossKind kind) {
   CalibrateOptions options;
   options.loss = DefaultLoss(kind);
   return options;
+}
+
+// No pose is within a tenth of a sigma: there is nothing to fit, and no number of it may be none.
+TEST(Loss, OneThatLeavesNoPoseAWeightIsNoSolution) {
+  auto rng = SeededByTest();
+  const std::vector<Observation> rows = NoisyRows(rng, AnyMounts(rng), 12);
+  CalibrateOptions options;
+  for (const double scale : {0.1, 0.3})
+    for (const bool is_known : {false, true}) {
+      options.loss = {LossKind::kTukey, scale};
+      if (is_known) options.noise = kNoise;
+      const Estimate estimate = Calibrate(UnknownNoise(rows), {}, options);
+      EXPECT_FALSE(estimate.converged);
+      EXPECT_THAT(estimate.message, HasSubstr("of 12 poses a weight, too few for base and tool"));
+      EXPECT_GT(estimate.degrees_of_freedom, 0);
+      EXPECT_TRUE(std::isfinite(estimate.noise_scale));
+      EXPECT_TRUE(std::isfinite(estimate.rmspe));
+      EXPECT_TRUE(estimate.covariance.allFinite());
+    }
 }
 
 TEST(Loss, OutliersHardlyCount) {
