@@ -84,6 +84,7 @@ int RunExport(const std::vector<std::string>& files) {
   std::vector<std::string> inputs = {files[1]};
   if (format.needs_dataset) {
     const Dataset dataset = OpenDataset(FLAGS_dataset, true);
+    RequireSameReadings(input.calibration, ReadingsOf(dataset), dataset.path);
     observations = MakeObservations(dataset);
     input.observations = &observations;
     for (std::string& file : InputFiles(dataset, "")) inputs.push_back(std::move(file));

@@ -239,6 +239,32 @@ TEST_F(CliExport, ResidualsAsATable) {
   EXPECT_FALSE(std::getline(lines, line));
 }
 
+// Another measurement of the same poses, and one digit of one of them.
+TEST_F(CliExport, RefusesAnotherDatasetThanTheResults) {
+  const std::string examples = std::string(HEXCAL_EXAMPLES) + "/paper/";
+  for (const auto& entry : std::filesystem::directory_iterator(examples)) {
+    const std::string name = entry.path().filename().string();
+    std::ifstream file(entry.path());
+    folder.Write(name, std::string(std::istreambuf_iterator<char>(file), {}));
+  }
+  const std::vector<std::string> dataset = {"--dataset=" + folder.Path("dataset.yaml")};
+  EXPECT_EQ(Export("tum", dataset).status, 0);
+  Json other = result;
+  std::string readings = other["poses"][3]["readings"];
+  readings[0] = readings[0] == '0' ? '1' : '0';
+  other["poses"][3]["readings"] = readings;
+  result_path = folder.Write("other.json", other.dump());
+  const ProgramResult refused = Export("tum", dataset);
+  EXPECT_EQ(refused.status, 3);
+  const std::string label = other["poses"][3]["pose"];
+  EXPECT_THAT(refused.err,
+              HasSubstr("other.json: found other readings of the pose '" + label + "' than in " +
+                        folder.Path("dataset.yaml") + ", expected the result of this dataset"));
+  for (Json& pose : other["poses"]) pose.erase("readings");  // as results of earlier versions
+  result_path = folder.Write("old.json", other.dump());
+  EXPECT_EQ(Export("tum", dataset).status, 0);
+}
+
 TEST_F(CliExport, RefusesWhatItCannotUse) {
   EXPECT_EQ(Export("ros3").status, 2);
   EXPECT_THAT(Export("ros3").err, HasSubstr("did you mean 'ros"));

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "report/export/calibration.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdint>
+#include <map>
+#include <string_view>
 
 #include "config/strict_yaml.h"
 #include "measurement/labels.h"
@@ -15,6 +20,13 @@ const YamlNode& Key(const YamlNode& map, std::string_view key) {
     if (name.scalar == key) return value;
   throw InputError(
       map.where, "no key '" + std::string(key) + "'", "a result.json of hexcal calibrate");
+}
+
+// Results of earlier versions do not say.
+std::string ReadingsIn(const YamlNode& pose) {
+  for (const auto& [name, value] : pose.entries)
+    if (name.scalar == "readings") return ReadText(value);
+  return "";
 }
 
 // The block of six from first on, where all of it is determined.
@@ -53,9 +65,26 @@ Calibration ReadCalibration(const std::string& path) {
     CheckLabel(ReadText(label), label.where, "pose label");
     calibration.poses.push_back({label.scalar,
                                  ReadNumber(Key(node, "weight")),
-                                 Eigen::Map<const Vector6d>(residual.data())});
+                                 Eigen::Map<const Vector6d>(residual.data()),
+                                 ReadingsIn(node)});
   }
   return calibration;
+}
+
+void RequireSameReadings(const Calibration& calibration,
+                         const DatasetReadings& readings,
+                         const std::string& dataset_path) {
+  std::map<std::string_view, std::uint64_t> by_label;
+  for (const PoseReadings& pose : readings) by_label[pose.pose] = pose.hash;
+  for (const CalibratedPose& pose : calibration.poses) {
+    const auto found = by_label.find(pose.label);
+    if (found == by_label.end() || pose.readings.empty()) continue;
+    if (HexOf(found->second) == pose.readings) continue;
+    throw InputError(
+        FileLocation(calibration.path),
+        fmt::format("other readings of the pose {} than in {}", Quoted(pose.label), dataset_path),
+        fmt::format("the result of this dataset (it is of '{}')", calibration.dataset));
+  }
 }
 
 }  // namespace hexcal

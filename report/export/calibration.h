@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/pose.h"
+#include "report/readings.h"
 
 namespace hexcal {
 
@@ -19,7 +20,8 @@ struct CalibratedMount {
 struct CalibratedPose {
   std::string label;
   double weight = 0.0;
-  Vector6d residual;  // measured minus predicted, m and rad, frame of the tool
+  Vector6d residual;     // measured minus predicted, m and rad, frame of the tool
+  std::string readings;  // by which it was measured (report/readings.h); empty: not said
 };
 
 // What other programs want to know of a calibration.
@@ -33,5 +35,10 @@ struct Calibration {
 
 // Reads a result.json. InputError where it is none, or of a later version.
 Calibration ReadCalibration(const std::string& path);
+
+// InputError where a pose was read otherwise than in the dataset of that path.
+void RequireSameReadings(const Calibration& calibration,
+                         const DatasetReadings& readings,
+                         const std::string& dataset_path);
 
 }  // namespace hexcal
