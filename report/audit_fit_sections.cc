@@ -116,19 +116,21 @@ void AddValidation(const Audit& audit, HtmlPage* page) {
   if (held.poses == 0) return page->Paragraph("There is nothing to validate with.");
   if (audit.global.is_rounding)
     return page->Paragraph("Not validated: " + std::string(kOnlyRounding) + ".");
-  page->Paragraph(
-      fmt::format("Each pose was predicted from all the others: {} RMS where noise and prediction "
-                  "explain {}, and "
-                  "{} where they explain {}. {} of {} poses lie within the 95 % region of their "
-                  "prediction; of a "
-                  "model that lacks nothing it would be {} or more in 99 of 100 cases.",
-                  SizeText(held.rms_position, "m"),
-                  SizeText(held.expected_position, "m"),
-                  SizeText(held.rms_orientation, "rad"),
-                  SizeText(held.expected_orientation, "rad"),
-                  held.inside,
-                  held.poses,
-                  held.fewest));
+  page->Paragraph(fmt::format(
+      "Each pose was predicted from all the others: {} RMS where noise and prediction "
+      "explain {}, and "
+      "{} where they explain {}. {} of {} poses lie within the 95 % region of their "
+      "prediction; {}.",
+      SizeText(held.rms_position, "m"),
+      SizeText(held.expected_position, "m"),
+      SizeText(held.rms_orientation, "rad"),
+      SizeText(held.expected_orientation, "rad"),
+      held.inside,
+      held.poses,
+      held.fewest > 0 ? fmt::format("of a model that lacks nothing it would be {} or more in 99 of "
+                                    "100 cases",
+                                    held.fewest)
+                      : "so few poses depend on each other too much for a test of that number"));
   if (audit.comparison.folds > 0)
     page->Note(fmt::format(
         "One pose at a time; the figures by method, in the section on linearized against "

@@ -10,6 +10,9 @@ namespace hexcal {
 namespace {
 
 constexpr double kProbability = 0.95;
+// Below, what each pose is held against is as good as the same: the law of independent ones has it
+// that almost none may lie outside, where in truth they do so together.
+constexpr int kFewestTested = 6;
 
 // The largest k with a probability of 99 % or more that k or more of n lie inside, each with 95 %
 // (the binomial distribution).
@@ -31,7 +34,7 @@ int FewestInside(int n) {
 HeldOutTest HeldOutTestOf(const std::vector<PoseCheck>& poses) {
   HeldOutTest test;
   test.poses = static_cast<int>(poses.size());
-  test.fewest = FewestInside(test.poses);
+  if (test.poses >= kFewestTested) test.fewest = FewestInside(test.poses);
   const double limit = ChiSquareQuantile(kProbability, 6.0);
   Eigen::Vector4d squares = Eigen::Vector4d::Zero();
   for (const PoseCheck& pose : poses) {

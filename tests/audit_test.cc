@@ -12,6 +12,7 @@
 #include "report/audit_json.h"
 #include "report/audit_table.h"
 #include "report/decide.h"
+#include "report/held_out.h"
 #include "testing/audits.h"
 #include "testing/matchers.h"
 
@@ -133,6 +134,18 @@ TEST_F(AuditTest, BudgetHoldsTheRobotsOwnError) {
   EXPECT_NEAR(sum, 1.0, 1e-12);
   EXPECT_TRUE(has_robot);
   EXPECT_TRUE(with.points[0].check->agrees);
+}
+
+// The law of independent errors is not theirs: with four poses one in seven was called too few.
+TEST(HeldOutTest, OfFewerThanSixPosesNothingIsAsked) {
+  PoseCheck outside;
+  outside.squared = 1e3;
+  for (const int poses : {3, 4, 5}) {
+    const HeldOutTest test = HeldOutTestOf(std::vector<PoseCheck>(poses, outside));
+    EXPECT_EQ(test.fewest, 0);
+    EXPECT_EQ(test.inside, 0);
+  }
+  EXPECT_EQ(HeldOutTestOf(std::vector<PoseCheck>(6, outside)).fewest, 4);
 }
 
 // What no pose has seen is a stated reservation of a verdict about the workspace; it decides
