@@ -17,6 +17,10 @@ constexpr double kOddJointRatio = 200;
 // A factor beyond this is no unit: a robot that only turned has no travel at all.
 constexpr double kLargestRatio = 20000;
 
+// No hexapod is as large, nor as small, m: a thousand times those of a hand's breadth to some
+// metres.
+constexpr double kHugeRobot = 50.0, kTinyRobot = 0.002;
+
 // Root mean square distance from the mean, of vectors of any size.
 class Spread {
  public:
@@ -123,20 +127,39 @@ double Radius(const Matrix36d& joints) {
   return (joints.colwise() - joints.rowwise().mean()).colwise().norm().maxCoeff();
 }
 
-void CompareJoints(const Dataset& dataset, std::vector<std::string>& warnings) {
+double LargestOf(const RobotPoses& robot_poses) {
   double largest = 0;
-  for (const RobotPose& pose : dataset.robot_poses.rows)
+  for (const RobotPose& pose : robot_poses.rows)
     largest = std::max(largest,
-                       dataset.robot_poses.are_leg_lengths
+                       robot_poses.are_leg_lengths
                            ? *std::max_element(pose.leg_lengths.begin(), pose.leg_lengths.end())
                            : pose.base_from_platform.translation.norm());
-  if (const auto ratio =
-          OddRatio(Radius(dataset.hexapod->base_joints_in_base), largest, kOddJointRatio))
+  return largest;
+}
+
+void CompareJoints(const Dataset& dataset, std::vector<std::string>& warnings) {
+  if (const auto ratio = OddRatio(Radius(dataset.hexapod->base_joints_in_base),
+                                  LargestOf(dataset.robot_poses),
+                                  kOddJointRatio))
     warnings.push_back(
         fmt::format("{}: the joints of the hexapod and the lengths in robot_poses differ by a "
                     "factor of {:.0f}: is one of them in the other unit (m, mm)?",
                     dataset.path,
                     *ratio));
+}
+
+// Where all lengths agree, all may be in the other unit. Small poses say nothing without joints.
+void CheckSize(const Dataset& dataset, std::vector<std::string>& warnings) {
+  const bool has_joints = dataset.hexapod.has_value();
+  const double size =
+      has_joints ? Radius(dataset.hexapod->base_joints_in_base) : LargestOf(dataset.robot_poses);
+  if (size < kHugeRobot && (!has_joints || size > kTinyRobot)) return;
+  warnings.push_back(fmt::format(
+      "{}: {} {:.3g} m {}: are all lengths in the other unit than `units:` says (m, mm)?",
+      dataset.path,
+      has_joints ? "the joints of the hexapod are" : "robot_poses are",
+      size,
+      has_joints ? "from their middle" : "away from frame B"));
 }
 
 void FindEqualJoints(const Matrix36d& joints,
@@ -164,6 +187,7 @@ std::vector<std::string> FindOddities(const Dataset& dataset) {
     FindEqualJoints(hexapod.base_joints_in_base, "base_joints", dataset.path, warnings);
     FindEqualJoints(hexapod.platform_joints_in_platform, "platform_joints", dataset.path, warnings);
   }
+  if (warnings.empty()) CheckSize(dataset, warnings);
   return warnings;
 }
 

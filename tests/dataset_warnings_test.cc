@@ -109,6 +109,25 @@ TEST(DatasetWarnings, LegLengthsInTheOtherUnit) {
   EXPECT_TRUE(WarnsOnce(dataset, "the travel in robot_poses and that in the measurement"));
 }
 
+TEST(DatasetWarnings, AllInTheOtherUnit) {
+  auto rng = SeededByTest();
+  for (const double factor : {1.0, 1000.0, 0.001})
+    for (const bool has_joints : {true, false}) {
+      Dataset dataset = Good(rng);
+      dataset.hexapod->base_joints_in_base *= factor;
+      dataset.hexapod->platform_joints_in_platform *= factor;
+      if (!has_joints) dataset.hexapod.reset();
+      for (RobotPose& pose : dataset.robot_poses.rows)
+        pose.base_from_platform.translation *= factor;
+      for (MeasuredPose& pose : dataset.measurement->poses)
+        pose.world_from_tool.translation *= factor;
+      if (factor == 1.0 || (factor < 1.0 && !has_joints))
+        EXPECT_TRUE(FindOddities(dataset).empty());
+      else
+        EXPECT_TRUE(WarnsOnce(dataset, "are all lengths in the other unit"));
+    }
+}
+
 TEST(DatasetWarnings, ABodyInTheOtherUnit) {
   std::mt19937_64 rng = SeededByTest();
   for (const double factor : {1000.0, 0.001}) {
