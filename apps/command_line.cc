@@ -122,11 +122,20 @@ class ArgumentReader {
   std::size_t next_ = 0;
 };
 
+bool Takes(const Command& command, std::string_view flag) {
+  return std::any_of(command.flags.begin(), command.flags.end(), [flag](const CommandFlag& use) {
+    return use.name == flag;
+  });
+}
+
 void CheckNumberOfFiles(const Command& command, const std::vector<std::string>& files) {
   if (files.size() >= command.min_files && files.size() <= command.max_files) return;
   if (files.empty()) Refuse(command, fmt::format("found no file, expected {}", command.arguments));
   if (command.max_files == 0)
-    Refuse(command, fmt::format("found '{}', expected no file", files[0]));
+    Refuse(command,
+           fmt::format("found '{}', expected no file{}",
+                       files[0],
+                       Takes(command, "out") ? " (where the files go is --out=DIR)" : ""));
   Refuse(command, fmt::format("found {} files, expected {}", files.size(), command.arguments));
 }
 

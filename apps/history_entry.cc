@@ -6,9 +6,12 @@
 #include <unistd.h>
 
 #include <array>
+#include <filesystem>
+#include <system_error>
 
 #include "apps/flags.h"
 #include "apps/interrupt.h"
+#include "apps/message.h"
 
 namespace hexcal {
 namespace {
@@ -25,7 +28,14 @@ std::string UserName() {
 }  // namespace
 
 void CheckHistoryFlag() {
-  if (!FLAGS_history.empty()) RequireAppendable(FLAGS_history);
+  if (FLAGS_history.empty()) return;
+  RequireAppendable(FLAGS_history);
+  // A slip in the path would begin another history unseen.
+  const std::filesystem::path folder = std::filesystem::absolute(FLAGS_history).parent_path();
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder, ignored))
+    PrintWarning(fmt::format(
+        "--history={}: its folder is not there yet: a new history begins in it", FLAGS_history));
 }
 
 HistoryEntry::HistoryEntry(std::string_view command,

@@ -69,7 +69,10 @@ TEST(CliInit, ReplacesNothingOfOthers) {
   folder.Write("mine/dataset.yaml", "format: hexcal/dataset/1\n");
   EXPECT_EQ(Call({"init", "--out=mine"}, folder).status, 5);
   EXPECT_EQ(Call({"init", "--out=mine", "--name=a b"}, folder).status, 2);
-  EXPECT_EQ(Call({"init", "file", "--out=mine"}, folder).status, 2);
+  const ProgramResult file = Call({"init", "file"}, folder);
+  EXPECT_EQ(file.status, 2);
+  EXPECT_THAT(file.err,
+              HasSubstr("found 'file', expected no file (where the files go is --out=DIR)"));
   EXPECT_EQ(Call({"init"}, folder).status, 2);
 }
 
