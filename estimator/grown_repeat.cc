@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <utility>
 
@@ -14,14 +15,29 @@
 namespace hexcal {
 namespace {
 
-constexpr int kMaxSteps = 30;
+constexpr int kMaxSteps = 400;  // most take ten; a wave of hardly any height has a long valley
 // Squared length of a step in standard deviations after which nothing is left to do.
 constexpr double kArrived = 1e-8;
+// Of a step so short the derivative, which is that at the measured pose, tells no sign of the cost.
+constexpr double kNear = 0.1;
+// Steps that turn back with so much of the square of their length go too far each time.
+constexpr double kSlow = 0.1;
+// Damping in units of the solution's curvature: where a step is too long first, and then.
+constexpr double kFirstDamping = 0.1, kTighten = 4.0, kEase = 0.1, kLeastDamping = 1e-3;
+// Keeps steps finite where a wave has no height left.
+constexpr double kLeastCurvature = 1e-9;
 
 // A root of a symmetric matrix that may have no full rank.
-Matrix6d RootOf(const Matrix6d& covariance) {
+Eigen::MatrixXd RootOf(const Eigen::MatrixXd& covariance) {
   const Eigenvalues eigen = DecomposeSymmetric(covariance);
   return eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
+}
+
+// The same of parameters of very different sizes.
+Eigen::MatrixXd ScaledRootOf(const Eigen::MatrixXd& covariance) {
+  const Eigen::VectorXd sigma = covariance.diagonal().cwiseSqrt();
+  const Eigen::VectorXd inverse = sigma.unaryExpr([](double s) { return s > 0.0 ? 1.0 / s : 0.0; });
+  return sigma.asDiagonal() * RootOf(inverse.asDiagonal() * covariance * inverse.asDiagonal());
 }
 
 class GrownRepetition final : public Repetition {
@@ -30,6 +46,7 @@ class GrownRepetition final : public Repetition {
       : solution_(solution),
         problem_(solution.Problem()),
         covariance_(solution.fit.covariance),
+        root_(ScaledRootOf(covariance_)),
         root_of_common_(RootOf(solution.common)),
         sigma_(solution.CovarianceUnscaled().diagonal().cwiseSqrt()) {
     auto at_fit = problem_.Evaluate(solution.fit.mounts, solution.fit.free, true);
@@ -86,31 +103,66 @@ class GrownRepetition final : public Repetition {
     return noise;
   }
 
-  // Gauss-Newton steps until they are nothing, the curvature that of the solution.
-  bool Solve(const Noise& noise, Eigen::VectorXd* at) const {
+  struct Here {
+    Eigen::VectorXd residual;
+    Eigen::VectorXd gradient;  // by steps in standard deviations, as the curvature
+    Eigen::MatrixXd curvature;
+    double cost = 0.0;
+  };
+
+  std::optional<Here> EvaluateAt(const Noise& noise, const Eigen::VectorXd& at) const {
     const Mounts& mounts = solution_.fit.mounts;
-    const Eigen::Index pose_rows = 6 * static_cast<Eigen::Index>(roots_.size());
-    const Eigen::Index others = problem_.num_rows() - pose_rows;
-    for (int k = 0; k < kMaxSteps; ++k) {
-      const auto here =
-          problem_.Evaluate({Plus(mounts.world_from_base, Vector6d(at->head<6>())),
-                             Plus(mounts.platform_from_tool, Vector6d(at->segment<6>(6)))},
-                            solution_.fit.free + at->tail(at->size() - 12),
-                            true);
-      if (!here) return false;
-      Eigen::VectorXd residual(problem_.num_rows());
-      for (std::size_t i = 0; i < roots_.size(); ++i)
-        residual.segment<6>(6 * static_cast<Eigen::Index>(i)) =
-            solution_.data.poses[i].whitener *
-            Minus(here->seen[i] * noise.seen_from_measured[i], here->predicted[i]);
-      residual.tail(others) =
-          here->residual.tail(others) - at_fit_.residual.tail(others) + noise.whitened.tail(others);
-      const Eigen::VectorXd gradient = here->jacobian.transpose() * residual;
-      const Eigen::VectorXd step = -covariance_ * gradient;
-      const double size = -step.dot(gradient);
+    const auto found =
+        problem_.Evaluate({Plus(mounts.world_from_base, Vector6d(at.head<6>())),
+                           Plus(mounts.platform_from_tool, Vector6d(at.segment<6>(6)))},
+                          solution_.fit.free + at.tail(at.size() - 12),
+                          true);
+    if (!found) return std::nullopt;
+    const Eigen::Index others = problem_.num_rows() - 6 * static_cast<Eigen::Index>(roots_.size());
+    Here here;
+    here.residual.resize(problem_.num_rows());
+    for (std::size_t i = 0; i < roots_.size(); ++i)
+      here.residual.segment<6>(6 * static_cast<Eigen::Index>(i)) =
+          solution_.data.poses[i].whitener *
+          Minus(found->seen[i] * noise.seen_from_measured[i], found->predicted[i]);
+    here.residual.tail(others) =
+        found->residual.tail(others) - at_fit_.residual.tail(others) + noise.whitened.tail(others);
+    const Eigen::MatrixXd jacobian = found->jacobian * root_;
+    here.gradient = jacobian.transpose() * here.residual;
+    here.curvature = jacobian.transpose() * jacobian;
+    here.cost = here.residual.squaredNorm();
+    if (!std::isfinite(here.cost)) return std::nullopt;
+    return here;
+  }
+
+  // Levenberg and Marquardt's steps from the solution until they are nothing. The curvature is that
+  // of where it stands: of a wave it grows as the square of the amplitude.
+  bool Solve(const Noise& noise, Eigen::VectorXd* at) const {
+    at->setZero();
+    std::optional<Here> here = EvaluateAt(noise, *at);
+    double damping = 0.0, last_size = 0.0;
+    Eigen::VectorXd last = Eigen::VectorXd::Zero(at->size());
+    for (int k = 0; here && k < kMaxSteps; ++k) {
+      Eigen::MatrixXd curvature = here->curvature;
+      curvature.diagonal().array() += damping + kLeastCurvature;
+      const Eigen::VectorXd step = -curvature.llt().solve(here->gradient);
+      const double size = -step.dot(here->gradient);
       if (!std::isfinite(size)) return false;
-      *at += step;
-      if (size < kArrived) return true;
+      const Eigen::VectorXd next = *at + root_ * step;
+      std::optional<Here> there = EvaluateAt(noise, next);
+      const bool is_better = there && (there->cost <= here->cost || size < kNear);
+      if (size * (1.0 + damping) < kArrived) {
+        if (is_better) *at = next;
+        return true;
+      }
+      const bool reverses = last.dot(step) < 0.0 && size > kSlow * last_size;
+      last = step, last_size = size;
+      damping = !is_better ? std::max(kTighten * damping, kFirstDamping)
+                : reverses ? std::max(damping, 1.0)
+                           : (damping > kLeastDamping ? kEase * damping : 0.0);
+      if (!is_better) continue;
+      *at = next;
+      here = std::move(there);
     }
     return false;
   }
@@ -119,6 +171,7 @@ class GrownRepetition final : public Repetition {
   GrownProblem problem_;
   GrownProblem::Evaluation at_fit_;
   const Eigen::MatrixXd& covariance_;
+  Eigen::MatrixXd root_;
   Matrix6d root_of_common_;
   std::vector<Matrix6d> roots_;  // of the poses' covariances: the whiteners' inverses
   Eigen::VectorXd sigma_;

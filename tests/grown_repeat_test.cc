@@ -60,6 +60,28 @@ TEST(GrownRepeat, ScattersAsTheJointCovarianceSays) {
   EXPECT_TRUE(target.agrees) << target.quantile << " " << target.repeated_quantile;
 }
 
+// The curvature of a wave's phase grows as the square of its height, which noise may double here:
+// steps by the curvature of the solution would not arrive.
+TEST(GrownRepeat, ArrivesWithAWaveThatIsHardlyHigherThanItsUncertainty) {
+  auto rng = SeededByTest();
+  ModelScene scene = MakeModelScene(rng, {"leg_periodic"}, 40);
+  for (Effect* effect : {&scene.truth.effects[0], &scene.model.effects[0]}) {
+    const Effect all = *effect;
+    effect->parameters.setZero();
+    for (const int number : {1, 7, 12, 14, 20})  // of the second leg
+      effect->parameters[number] = all.parameters[number];
+    effect->parameters[12] = 0.005;
+    effect->parameters[1] = 5e-5, effect->parameters[14] = 3e-5;
+  }
+  MonteCarloOptions options = Few();
+  options.most_rounds = 1;
+  const auto made = CalibrateModel(scene, 1, true);
+  const PropagationCheck check =
+      CheckGrownPropagation(*made->grown.solution, made->grown.estimate, options);
+  ASSERT_TRUE(check.done) << check.why_not;
+  EXPECT_LE(check.not_converged, 1) << check.draws;
+}
+
 TEST(GrownRepeat, IsTheSameForAnyNumberOfThreads) {
   auto rng = SeededByTest();
   const ModelScene scene = MakeModelScene(rng, {"tool_thermal"}, 16);
