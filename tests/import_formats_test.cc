@@ -398,7 +398,7 @@ TEST(Formats, NoneTakesTheFileOfAnother) {
     for (const ImportFormat& format : ImportFormats()) {
       if (format.name == own || format.read_recording == nullptr) continue;
       const std::string message =
-          InputErrorText([&] { ReadRecording(format, ImportPath(file), LabMap()); });
+          InputErrorText([&, path = ImportPath(file)] { ReadRecording(format, path, LabMap()); });
       EXPECT_EQ(message.find("(no exception)"), std::string::npos) << format.name << " " << file;
       EXPECT_EQ(message.find("(another exception"), std::string::npos) << message;
       if (recognised != nullptr && format.recognise != nullptr) {
