@@ -91,7 +91,7 @@ TEST(AuditInBrowser, IsDrawnSaysWhatItsJsonSaysAndItsNamesAreOnlyNames) {
   const std::string dom = Before(browser.Dom(html), "plotly.js (cartesian");
   ExpectQuiet(browser.Console());
   const int pictures = Count(html, "class=\"plot\"");
-  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 19);
+  EXPECT_EQ(pictures, FlatCharts().empty() ? 0 : 20);
   EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), pictures);
   EXPECT_EQ(Count(dom, "data-complete="), FlatCharts().empty() ? 0 : 1);
   const auto json = nlohmann::json::parse(AuditJson(identity, audit));
@@ -137,8 +137,8 @@ TEST(CalibrationInBrowser, IsDrawnAsItsComparisonIs) {
        {std::pair{
             CalibrateHtml(
                 {"demo", "nonlinear", "pose", ""}, record, example.estimate, frames, scene, left),
-            16},
-        std::pair{CompareHtml("demo", record, example.comparison, scene, untimed), 14}}) {
+            17},
+        std::pair{CompareHtml("demo", record, example.comparison, scene, untimed), 15}}) {
     const std::string dom = Before(browser.Dom(html), "plotly.js (cartesian");
     ExpectQuiet(browser.Console());
     EXPECT_EQ(Count(html, "class=\"plot\""), FlatCharts().empty() ? 0 : pictures);
