@@ -133,7 +133,7 @@ TEST_F(CliAudit, NamesABadReadingOfOneMarker) {
 
 TEST_F(CliAudit, TheReportHasTheCallAsAShellReadsItBack) {
   ASSERT_EQ(Audit({"--operator=second shift", "--history=" + folder.Path("h.sqlite")}).status, 0);
-  EXPECT_THAT(Read("report.html"), HasSubstr("dataset.yaml --out="));
+  EXPECT_THAT(Read("report.html"), HasSubstr("dataset.yaml \\\n  --out="));
   EXPECT_THAT(Read("report.html"), HasSubstr("--folds=2"));
   EXPECT_THAT(Read("report.html"), HasSubstr("--operator=&#39;second shift&#39;"));
 }
