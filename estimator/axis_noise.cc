@@ -197,7 +197,6 @@ std::optional<AxisNoise> NoiseWithinBodies(const MarkerObservations& markers) {
   noise.sigma = variance->cwiseSqrt();
   noise.spread = information.solve(Eigen::Matrix3d::Identity());
   noise.likelihood_ratio = 2.0 * (at.logarithm - alike.logarithm);
-  noise.common_sigma = std::sqrt(common);
   return noise;
 }
 

@@ -14,7 +14,6 @@ struct AxisNoise {
   Eigen::Vector3d sigma;        // of one reading along the tracker's axes, m
   Eigen::Matrix3d spread;       // covariance of the logarithms of their squares
   double likelihood_ratio = 0;  // twice its logarithm, against one sigma for all axes
-  double common_sigma = 0;      // that one, m
 
   // With which each axis' sigma is known, the others' being unknown too.
   Eigen::Vector3d DegreesOfFreedom() const;

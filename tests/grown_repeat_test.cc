@@ -60,9 +60,9 @@ TEST(GrownRepeat, ScattersAsTheJointCovarianceSays) {
   EXPECT_TRUE(target.agrees) << target.quantile << " " << target.repeated_quantile;
 }
 
-// The curvature of a wave's phase grows as the square of its height, which noise may double here:
-// steps by the curvature of the solution would not arrive.
-TEST(GrownRepeat, ArrivesWithAWaveThatIsHardlyHigherThanItsUncertainty) {
+// The curvature of a wave's phase grows as the square of its height, which noise moves by a quarter
+// here: steps by the curvature of the solution would not arrive.
+TEST(GrownRepeat, ArrivesWithAWaveOfFourTimesItsUncertainty) {
   auto rng = SeededByTest();
   ModelScene scene = MakeModelScene(rng, {"leg_periodic"}, 40);
   for (Effect* effect : {&scene.truth.effects[0], &scene.model.effects[0]}) {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "model/hexapod.h"
@@ -187,7 +188,8 @@ TEST_F(SceneTest, ArrowsAndEllipsoidAreLargeInTheirPicture) {
   EXPECT_LT(ellipsoid, 0.8 * box);
 }
 
-// Seen from above the platform's outline goes round once and does not cross itself.
+// From joint to joint of the platform; seen from above it goes round once and does not cross
+// itself.
 TEST_F(SceneTest, TheOutlineOfThePlatformGoesRoundOnce) {
   const Scene scene = Make();
   const Chart chart = SceneCharts(scene)[0];
@@ -195,13 +197,19 @@ TEST_F(SceneTest, TheOutlineOfThePlatformGoesRoundOnce) {
     if (trace["name"] != "platform") continue;
     ASSERT_EQ(trace["x"].size(), 7u);
     const Pose3d platform_from_world = scene.world_from_platform.Inverse();
-    const auto at = [&](int i) {
-      return Eigen::Vector3d(platform_from_world *
-                             Eigen::Vector3d(1e-3 * trace["x"][i].get<double>(),
-                                             1e-3 * trace["y"][i].get<double>(),
-                                             1e-3 * trace["z"][i].get<double>()));
-    };
-    for (int i = 0; i < 6; ++i) EXPECT_GT(at(i).cross(at(i + 1)).z(), 0.0);
+    std::vector<Eigen::Vector3d> corners;  // m, frame W
+    for (int i = 0; i < 7; ++i)
+      corners.push_back(1e-3 * Eigen::Vector3d(trace["x"][i].get<double>(),
+                                               trace["y"][i].get<double>(),
+                                               trace["z"][i].get<double>()));
+    EXPECT_TRUE(MatrixNear(corners[6], corners[0], 1e-12));
+    for (int i = 0; i < 6; ++i) {
+      const Eigen::Vector3d here = platform_from_world * corners[i];
+      EXPECT_GT(here.cross(platform_from_world * corners[i + 1]).z(), 0.0);
+      EXPECT_TRUE(std::any_of(scene.legs.begin(), scene.legs.end(), [&](const auto& leg) {
+        return (leg.second - corners[i]).norm() < 1e-9;
+      })) << i;
+    }
     return;
   }
   FAIL() << "no outline";
