@@ -278,6 +278,7 @@ const std::vector<const char*> kBeyondSchemas = {
     "expected two different markers of the tool body",
     "the name of one of the points",
     "found a second point",
+    "found a second requirement",
     "expected one that 'markers' of the map has",
     "expected a marker that bodies: lists",
     "a decimal comma between commas",
