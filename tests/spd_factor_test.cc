@@ -21,7 +21,7 @@ struct Size {
   static constexpr int kSize = kRows;
 };
 using Sizes = ::testing::Types<Size<9>, Size<12>>;
-TYPED_TEST_SUITE(SpdFactorTest, Sizes);
+TYPED_TEST_SUITE(SpdFactorTest, Sizes, );
 
 template <int kSize, typename Rng>
 Eigen::Matrix<double, kSize, kSize> AnyMatrix(Rng& rng) {

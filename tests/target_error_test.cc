@@ -18,7 +18,6 @@ using ::hexcal::testing::MatrixNear;
 using ::hexcal::testing::NumericJacobian;
 using ::hexcal::testing::SeededByTest;
 
-constexpr double kKnown = std::numeric_limits<double>::infinity();
 const Eigen::Vector3d kTip(0.01, -0.02, 0.12);
 
 // An estimate that is only sure of its size.
