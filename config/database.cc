@@ -58,7 +58,7 @@ void Database::Run(const std::string& sql) {
 void Database::Check(int code) const {
   if (code == SQLITE_OK) return;
   const std::string why = sqlite3_errmsg(handle_);
-  if (IsDamage(code)) throw InputError(fmt::format("{}: damaged, or no SQLite: {}", path_, why));
+  if (IsDamage(code)) throw InputError(FileLocation(path_), "damaged, or no SQLite: " + why);
   throw OutputError(fmt::format("{}: {}", path_, why));
 }
 

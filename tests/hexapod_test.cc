@@ -180,9 +180,13 @@ TEST_P(ForwardKinematicsTest, ConvergesFromPerturbedStarts) {
   int strayed = 0;
   for (int i = 0; i < 3000; ++i) {
     const Pose3d pose = testing::RandomWorkspacePose(rng, robot_.height, 30 * kDegree);
+    // Each draw by itself: of two in one expression every compiler has its own order.
+    const double shift = Uniform(rng, 0, 0.1);
+    const Eigen::Vector3d shift_axis = testing::Normal(rng, 3).normalized();
+    const double turn = Uniform(rng, 0, 30 * kDegree);
+    const Eigen::Vector3d turn_axis = testing::Normal(rng, 3).normalized();
     Vector6d d;
-    d << Uniform(rng, 0, 0.1) * testing::Normal(rng, 3).normalized(),
-        Uniform(rng, 0, 30 * kDegree) * testing::Normal(rng, 3).normalized();
+    d << shift * shift_axis, turn * turn_axis;
     const Pose3d start = Plus(pose, d);
     const LegLengths lengths = InverseKinematics(hexapod_, pose);
     const ForwardKinematicsResult result = ForwardKinematics(hexapod_, lengths, start);
@@ -192,8 +196,9 @@ TEST_P(ForwardKinematicsTest, ConvergesFromPerturbedStarts) {
                SameAssembly(hexapod_, start, pose) &&
                !SameAssembly(hexapod_, start, result.base_from_platform);
   }
-  // The straight way in leg lengths may pass a singular pose where a detour would not.
-  EXPECT_LE(strayed, 1);
+  // The straight way in leg lengths may pass a singular pose where a detour would not: of 300,000
+  // starts it did for 168 (small) and 11 (large).
+  EXPECT_LE(strayed, 6);
 }
 
 TEST_P(ForwardKinematicsTest, FindsTheNearPoseFromANearStart) {

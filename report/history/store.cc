@@ -137,7 +137,7 @@ std::vector<StoredRecord> ReadHistory(const std::string& path) {
   RequireOwnTables(&database);
   Statement check(&database, "PRAGMA integrity_check(1)");
   if (!check.Step() || check.Text(0) != "ok")
-    throw InputError(fmt::format("{}: damaged: {}", path, check.Text(0)));
+    throw InputError(FileLocation(path), "damaged: " + check.Text(0));
   Statement statement(&database, std::string(kSelect) + "ORDER BY number");
   return RowsOf(&statement);
 }
