@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "testing/run_program.h"
 #include "testing/temporary_folder.h"
@@ -63,6 +66,38 @@ TEST_F(CliAuditMissing, KeepsEverythingFromPassingAndSaysWhatToDo) {
   const std::string page = folder.Read("a/hidden-effects-8/report.html");
   EXPECT_THAT(page, HasSubstr("<h2>Missing effects</h2>"));
   EXPECT_THAT(page, HasSubstr("<td>base_drift</td><td>named</td>"));
+}
+
+// The first poses of a dataset that keeps each pose's number in the first column of its tables.
+std::string FirstPoses(const std::string& example, int poses, const TemporaryFolder& folder) {
+  for (const char* table : {"poses.csv", "markers.csv"}) {
+    std::ifstream all(example + "/" + table);
+    std::string kept, line;
+    while (std::getline(all, line))
+      if (std::atoi(line.c_str()) <= poses) kept += line + "\n";
+    folder.Write(table, kept);
+  }
+  std::ostringstream dataset;
+  dataset << std::ifstream(example + "/dataset.yaml").rdbuf();
+  return folder.Write("dataset.yaml", dataset.str());
+}
+
+TEST_F(CliAuditMissing, ThreePosesAreTooFewToTellAndSoToPass) {
+  const std::string example = std::string(HEXCAL_EXAMPLES) + "/neurobot";
+  for (const int poses : {3, 6}) {
+    const ProgramResult run = RunHexcal({{"audit",
+                                          FirstPoses(example, poses, folder),
+                                          "--out=" + folder.Path("a"),
+                                          "--requirement=" + folder.Write("r.yaml", kRequirement),
+                                          "--draws=1000",
+                                          "--force"}});
+    EXPECT_EQ(run.status, 0) << run.err;
+    const Json audit = Json::parse(folder.Read("a/neurobot/audit.json"));
+    const std::string page = folder.Read("a/neurobot/report.html");
+    const std::string why = "3 poses are too few to tell an effect from the noise";
+    EXPECT_EQ(audit["verdict"], poses == 3 ? "INCONCLUSIVE" : "PASS");
+    EXPECT_EQ(page.find(why) != std::string::npos, poses == 3);
+  }
 }
 
 }  // namespace
