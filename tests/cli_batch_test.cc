@@ -136,6 +136,13 @@ TEST_F(CliBatch, CannotBeTrustedWhereADatasetCannot) {
   folder.Write("d4.yaml", text);
   EXPECT_EQ(Run({"batch", "m.yaml", "--out=out"}).status, 4);
   EXPECT_THAT(folder.Read("out/results.csv"), HasSubstr("\nnine,4,untrusted,"));
+
+  folder.Write(
+      "m.yaml",
+      "format: hexcal/batch/1\nname: d\ncommand: discover\ndatasets: [d4.yaml, d5.yaml]\n");
+  EXPECT_EQ(Run({"batch", "m.yaml", "--out=discovered"}).status, 4);
+  EXPECT_THAT(folder.Read("discovered/results.csv"),
+              AllOf(HasSubstr("\nd,0,untrusted,"), HasSubstr("\nd,1,done,")));
 }
 
 TEST_F(CliBatch, RefusesResultsOfAnotherManifestAndForeignFiles) {
