@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -51,11 +52,9 @@ std::vector<Column> AllColumns(const Job& job) {
 }
 
 std::string PlainText(std::string_view text) {
-  std::string plain;
-  for (const char c : text) {
-    const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-    plain += is_control ? ' ' : c == ',' ? ';' : c == '"' ? '\'' : c;
-  }
+  std::string plain = WithoutControls(text, ' ');
+  std::replace(plain.begin(), plain.end(), ',', ';');
+  std::replace(plain.begin(), plain.end(), '"', '\'');
   if (!IsUtf8(plain))
     for (char& c : plain)
       if (static_cast<unsigned char>(c) >= 0x80) c = '?';

@@ -3,15 +3,13 @@
 
 #include <fmt/format.h>
 
+#include "config/utf8.h"
+
 namespace hexcal {
 namespace {
 
 // Of a hostile file: no tab, line break or escape sequence reaches the terminal or a log.
-std::string OnOneLine(std::string text) {
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  return text;
-}
+std::string OnOneLine(const std::string& text) { return WithoutControls(text, ' '); }
 
 }  // namespace
 

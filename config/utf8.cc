@@ -30,6 +30,14 @@ std::size_t CharacterBytes(std::string_view text) {
   return size;
 }
 
+// Bytes of the control character at the start of text, 0 if there is none.
+std::size_t ControlBytes(std::string_view text) {
+  const auto c = static_cast<unsigned char>(text[0]);
+  if (c < 0x20 || c == 0x7F) return 1;
+  const bool is_of_two = c == 0xC2 && text.size() > 1 && IsContinuation(text[1]);
+  return is_of_two && static_cast<unsigned char>(text[1]) < 0xA0 ? 2 : 0;
+}
+
 std::size_t FindBadByte(std::string_view text) {
   std::size_t i = 0;
   while (i < text.size()) {
@@ -53,14 +61,27 @@ int CountCharacters(std::string_view text) {
       std::count_if(text.begin(), text.end(), [](char c) { return !IsContinuation(c); }));
 }
 
-std::string Shorten(std::string_view text, int max_characters) {
-  std::string shown;
-  int count = 0;
-  for (const char c : text) {
-    if (!IsContinuation(c) && ++count > max_characters) return shown + "...";
-    shown += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+bool HasControls(std::string_view text) {
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (ControlBytes(text.substr(i)) > 0) return true;
+  return false;
+}
+
+std::string WithoutControls(std::string_view text, char replacement) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t size = ControlBytes(text.substr(i));
+    plain += size > 0 ? replacement : text[i];
+    i += size > 0 ? size : 1;
   }
-  return shown;
+  return plain;
+}
+
+std::string Shorten(std::string_view text, int max_characters) {
+  std::size_t end = 0;
+  for (int count = 0; end < text.size(); ++end)
+    if (!IsContinuation(text[end]) && ++count > max_characters) break;
+  return WithoutControls(text.substr(0, end), '?') + (end < text.size() ? "..." : "");
 }
 
 void RefuseBadText(std::string_view text, const Location& start) {

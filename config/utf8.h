@@ -18,6 +18,12 @@ void RefuseBadText(std::string_view text, const Location& start);
 // Characters, not bytes, as an editor counts columns. text is UTF-8.
 int CountCharacters(std::string_view text);
 
+// What a terminal may obey instead of showing: 0 to 0x1F, 0x7F and U+0080 to U+009F (ISO 6429).
+bool HasControls(std::string_view text);
+
+// text with replacement for each of them.
+std::string WithoutControls(std::string_view text, char replacement);
+
 // At most max_characters of text with control characters shown as '?' and "..." where it was cut:
 // what may stand in a message.
 std::string Shorten(std::string_view text, int max_characters = 60);

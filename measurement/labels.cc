@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <functional>
 
 #include "config/utf8.h"
@@ -11,12 +10,9 @@
 namespace hexcal {
 namespace {
 
-bool IsControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
-
 bool CsvCanCarry(std::string_view text) {
   if (text.front() == '#' || text.front() == ' ' || text.back() == ' ') return false;
-  return std::none_of(
-      text.begin(), text.end(), [](char c) { return c == ',' || c == '"' || IsControl(c); });
+  return text.find_first_of(",\"") == text.npos && !HasControls(text);
 }
 
 }  // namespace
@@ -28,8 +24,8 @@ void CheckLabel(std::string_view text, const Location& where, std::string_view w
   if (CsvCanCarry(text)) return;
   throw InputError(where,
                    fmt::format("the {} {}", what, Quoted(text)),
-                   "text without commas, double quotes, line breaks, a leading '#' or blanks at "
-                   "its ends, which a table cannot carry");
+                   "text without commas, double quotes, line breaks or other control characters, a "
+                   "leading '#' or blanks at its ends, which a table cannot carry");
 }
 
 PoseIndex::PoseIndex(const RobotPoses& robot_poses) : rows_(robot_poses.rows) {

@@ -17,6 +17,8 @@ TEST(InputError, LetsNoControlCharacterThrough) {
   const Location where = FileLocation("a\tb");
   EXPECT_STREQ(InputError(where, "\x1b[31mred\n", "\x7fplain µ").what(),
                "a b: found  [31mred , expected  plain µ");
+  // U+009B is ESC [ in one character, which some terminals obey; U+00B5 shares its first byte.
+  EXPECT_STREQ(InputError(where, "\u009b31m\u0085 \u00a0µ").what(), "a b:  31m  \u00a0µ");
   EXPECT_STREQ(InputError(where, "two\r\nlines").what(), "a b: two  lines");
 }
 

@@ -109,9 +109,9 @@ void CheckPlaces(const Recording& recording, const TrackedSide& side) {
 }
 
 std::string CleanLabel(std::string_view name) {
-  std::string clean(Trimmed(name));
+  std::string clean = WithoutControls(Trimmed(name), '_');
   for (char& c : clean)
-    if (c == ',' || c == '"' || static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
+    if (c == ',' || c == '"') c = '_';
   if (!clean.empty() && clean.front() == '#') clean.front() = '_';
   return clean.empty() ? "_" : clean;
 }

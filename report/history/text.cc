@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "config/utf8.h"
 #include "report/quantity.h"
 
 namespace hexcal {
@@ -15,11 +16,7 @@ constexpr std::size_t kShortHash = 12;
 constexpr double kSecondsPerDay = 86400.0;
 
 // A terminal obeys control characters; a file must not speak to it.
-std::string Plain(std::string_view text) {
-  std::string plain;
-  for (const char c : text) plain += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  return plain;
-}
+std::string Plain(std::string_view text) { return WithoutControls(text, '?'); }
 
 std::string UnitOf(int parameter) { return kParameters[parameter].is_angle ? "mrad" : "mm"; }
 

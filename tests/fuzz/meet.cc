@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "config/input_error.h"
+#include "config/utf8.h"
 #include "fuzz/readers.h"
 
 namespace hexcal::fuzz {
@@ -58,9 +59,7 @@ platform_from_tool: {xyz: [1, 2, 0], rpy: [0, 0, 0]}
 
 // A message goes to terminals and logs: no control characters, and not the whole input again.
 void CheckMessage(std::string_view message) {
-  bool is_good = !message.empty() && message.size() <= kLongestMessage;
-  for (const char c : message) is_good = is_good && static_cast<unsigned char>(c) >= 0x20;
-  if (is_good) return;
+  if (!message.empty() && message.size() <= kLongestMessage && !HasControls(message)) return;
   std::fprintf(stderr, "not a message: %zu bytes\n", message.size());
   std::abort();
 }
